@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <string>
 
-#include "verdigris/files/atomic_file.h"
 #include "verdigris/files/image_file.h"
 #include "verdigris/files/test_pictures.h"
 #include "verdigris/files/testing.h"
@@ -14,7 +13,7 @@ namespace {
 
 ImageFile read_bytes(std::span<const std::byte> bytes) {
     const ScratchFolder folder;
-    write_file(folder / "picture.bin", bytes);
+    put_bytes(folder / "picture.bin", bytes);
     const ImageInfo info = read_image_info(folder / "picture.bin");
     ImageFile file = read_image(folder / "picture.bin");
     EXPECT_EQ(info.width, file.info.width);
@@ -27,7 +26,7 @@ ImageFile read_bytes(std::span<const std::byte> bytes) {
 
 std::string sentence(std::span<const std::byte> bytes) {
     const ScratchFolder folder;
-    write_file(folder / "picture.bin", bytes);
+    put_bytes(folder / "picture.bin", bytes);
     return error_of([&] { read_image(folder / "picture.bin"); }).sentence();
 }
 
