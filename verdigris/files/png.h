@@ -22,7 +22,8 @@ struct PngText {
 };
 
 struct PngOptions {
-    int level = 1;  ///< libdeflate 1..12. chosen: 1 is ~25x faster than libpng's default, +14 % size
+    int level =
+        1;  ///< libdeflate 1..12. chosen: 1 is ~25x faster than libpng's default, +14 % size
     std::vector<PngText> text;
 };
 
