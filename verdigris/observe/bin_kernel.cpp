@@ -3,7 +3,6 @@
 
 // Vectors live in arrays below, which the sizeless types of SVE and RVV do not allow; NEON serves
 // those machines.
-#include <hwy/detect_targets.h>
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 
 #undef HWY_TARGET_INCLUDE
@@ -21,11 +20,21 @@ namespace verdigris {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// How the sum of a vector of T is kept: integers in two vectors of twice the width, float in one.
+// How the sum of a vector of T is kept: integers in two vectors of twice the width (one where a
+// vector is one number), float in one.
 template <class T>
 struct Sums {
     using D = hn::ScalableTag<T>;
     using W = typename TrimSum<T>::type;
+#if HWY_TARGET == HWY_SCALAR
+    using DW = hn::ScalableTag<W>;
+    hn::Vec<DW> all;
+
+    HWY_ATTR void zero() { all = hn::Zero(DW()); }
+    HWY_ATTR void load(const W* from) { all = hn::Load(DW(), from); }
+    HWY_ATTR void store(W* to) const { hn::Store(all, DW(), to); }
+    HWY_ATTR void add(hn::Vec<D> v) { all = hn::Add(all, hn::PromoteTo(DW(), v)); }
+#else
     using DW = hn::Repartition<W, D>;
     hn::Vec<DW> lower, upper;
 
@@ -43,6 +52,7 @@ struct Sums {
         lower = hn::Add(lower, hn::PromoteTo(DW(), hn::LowerHalf(half, v)));
         upper = hn::Add(upper, hn::PromoteTo(DW(), hn::UpperHalf(half, v)));
     }
+#endif
 };
 template <>
 struct Sums<float> {
@@ -110,15 +120,24 @@ template <class T>
 HWY_ATTR void add_rows_for_k(const TrimRow<T>& row, const T* const* rows, int count, bool first) {
     static_assert(kMaxTrim == 8);
     switch (row.k) {
-        case 0: return add_rows<T, 0>(row, rows, count, first);
-        case 1: return add_rows<T, 1>(row, rows, count, first);
-        case 2: return add_rows<T, 2>(row, rows, count, first);
-        case 3: return add_rows<T, 3>(row, rows, count, first);
-        case 4: return add_rows<T, 4>(row, rows, count, first);
-        case 5: return add_rows<T, 5>(row, rows, count, first);
-        case 6: return add_rows<T, 6>(row, rows, count, first);
-        case 7: return add_rows<T, 7>(row, rows, count, first);
-        default: return add_rows<T, 8>(row, rows, count, first);
+        case 0:
+            return add_rows<T, 0>(row, rows, count, first);
+        case 1:
+            return add_rows<T, 1>(row, rows, count, first);
+        case 2:
+            return add_rows<T, 2>(row, rows, count, first);
+        case 3:
+            return add_rows<T, 3>(row, rows, count, first);
+        case 4:
+            return add_rows<T, 4>(row, rows, count, first);
+        case 5:
+            return add_rows<T, 5>(row, rows, count, first);
+        case 6:
+            return add_rows<T, 6>(row, rows, count, first);
+        case 7:
+            return add_rows<T, 7>(row, rows, count, first);
+        default:
+            return add_rows<T, 8>(row, rows, count, first);
     }
 }
 

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/observe/exposure.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 
 #include "verdigris/observe/noise.h"
 
 namespace verdigris {
 namespace {
 
-constexpr double kTukey = 4.685;       // 95 % efficiency under a Gaussian [Holland1977]
+constexpr double kTukey = 4.685;  // 95 % efficiency under a Gaussian [Holland1977]
 constexpr double kSigmaOverMad = 1.4826;
-constexpr int kIterations = 5;         // spec E.1
+constexpr int kIterations = 5;             // spec E.1
 constexpr std::size_t kMaxPixels = 20000;  // chosen: the gain of so many is exact to 1e-4
-constexpr float kDark = 0.03f;         // chosen: below 8 of 255 a ratio is mostly noise
+constexpr float kDark = 0.03f;             // chosen: below 8 of 255 a ratio is mostly noise
 
 double median_of(std::vector<float>& values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -106,9 +107,15 @@ void JumpWatch::add(const Frame& frame) {
     const double black = limited ? 16 * double(1 << std::max(format_.bits - 8, 0)) : 0;
     now_.clear();
     switch (plane.type) {
-        case SampleType::u8: read_lattice<std::uint8_t>(plane, black, now_); break;
-        case SampleType::u16: read_lattice<std::uint16_t>(plane, black, now_); break;
-        case SampleType::f32: read_lattice<float>(plane, black, now_); break;
+        case SampleType::u8:
+            read_lattice<std::uint8_t>(plane, black, now_);
+            break;
+        case SampleType::u16:
+            read_lattice<std::uint16_t>(plane, black, now_);
+            break;
+        case SampleType::f32:
+            read_lattice<float>(plane, black, now_);
+            break;
     }
     if (last_.size() == now_.size()) {
         const float low = float(double(kDark) * scale), high = float(double(kSaturated) * scale);
@@ -134,13 +141,11 @@ std::optional<Status> JumpWatch::finding() const {
     const double typical = median_of(sizes);
     const double size = std::fabs(largest->log_gain);
     if (size < kVisibleStep || size < kUnusual * typical) return std::nullopt;
-    std::array<char, 200> text{};
-    std::snprintf(text.data(), text.size(),
-                  "the whole picture gets %.0f %% %s at once at frame %d; lock exposure and white "
-                  "balance, or leave that part out",
-                  100 * std::expm1(size), largest->log_gain > 0 ? "brighter" : "darker",
-                  largest->frame);
-    return Status{"exposure_jump", Severity::caution, text.data()};
+    const std::string text = fmt::format(
+        "the whole picture gets {:.0f} % {} at once at frame {}; lock exposure and white balance, "
+        "or leave that part out",
+        100 * std::expm1(size), largest->log_gain > 0 ? "brighter" : "darker", largest->frame);
+    return Status{"exposure_jump", Severity::caution, text};
 }
 
 }  // namespace verdigris

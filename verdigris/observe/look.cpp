@@ -37,8 +37,8 @@ Image<SrgbF> small(const Image<SrgbF>& shown) {
 }
 
 // Reads the frames `wanted`; false if the recording ends before the last of them.
-bool read_looks(const Recording& recording, const std::vector<int>& wanted, const Progress& progress,
-                const LookVisitor& visit, Look& look) {
+bool read_looks(const Recording& recording, const std::vector<int>& wanted,
+                const Progress& progress, const LookVisitor& visit, Look& look) {
     const RecordingInfo& info = recording.info();
     const auto reader = recording.read();
     Frame frame;

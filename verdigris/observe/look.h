@@ -24,7 +24,7 @@ struct Look {
     std::vector<Image<SrgbF>> frames;  ///< of one size, long side <= kLookSide, in order
     std::vector<int> index;            ///< which frame each one is
     int frame_width = 0, frame_height = 0;
-    int decodable = 0;                 ///< frames of the recording up to the last one that decodes
+    int decodable = 0;  ///< frames of the recording up to the last one that decodes
 };
 
 /// Which frames to look at. Photographs: evenly spaced. Videos: a jump costs half a group of

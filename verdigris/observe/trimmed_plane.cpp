@@ -15,9 +15,7 @@ constexpr int kRowsPerRun = 32;  // ~60,000 samples: 30 us or so, well above the
 
 template <class T>
 TrimmedPlane<T>::TrimmedPlane(int samples_per_row, int rows)
-    : n_(samples_per_row),
-      rows_(rows),
-      padded_((std::size_t(samples_per_row) + 63) / 64 * 64) {}
+    : n_(samples_per_row), rows_(rows), padded_((std::size_t(samples_per_row) + 63) / 64 * 64) {}
 
 template <class T>
 void TrimmedPlane<T>::begin(int k) {
@@ -29,7 +27,7 @@ void TrimmedPlane<T>::begin(int k) {
     const std::size_t bytes = row_bytes_ * std::size_t(rows_);
     if (bytes > capacity_) {
         state_.reset();
-        state_.reset(static_cast<std::byte*>(::operator new(bytes, std::align_val_t{64})));
+        state_.reset(static_cast<std::byte*>(::operator new (bytes, std::align_val_t{64})));
         capacity_ = bytes;
     }
 }

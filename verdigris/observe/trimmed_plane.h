@@ -42,7 +42,7 @@ class TrimmedPlane {
     TrimRow<T> row(int y) const;
 
     struct Release {
-        void operator()(std::byte* p) const { ::operator delete(p, std::align_val_t{64}); }
+        void operator()(std::byte* p) const { ::operator delete (p, std::align_val_t{64}); }
     };
     int n_ = 0, rows_ = 0, k_ = 0, count_ = 0;
     std::size_t padded_ = 0, row_bytes_ = 0, capacity_ = 0;

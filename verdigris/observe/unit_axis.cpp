@@ -75,8 +75,8 @@ AxisPlan plan_axis(const std::vector<double>& stamps, std::optional<double> unit
         axis.samples = frames;
     } else {
         axis.units = kUnitsPerRecording;
-        axis.samples_per_unit = std::clamp(int(std::floor(double(frames) / kUnitsPerRecording)), 1,
-                                           kMaxSamplesPerUnit);
+        axis.samples_per_unit =
+            std::clamp(int(std::floor(double(frames) / kUnitsPerRecording)), 1, kMaxSamplesPerUnit);
         axis.samples = int(std::lround(kUnitsPerRecording * axis.samples_per_unit));
     }
     axis.seconds_per_unit = plan.span_seconds / axis.units;

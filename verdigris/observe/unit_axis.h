@@ -14,12 +14,12 @@ namespace verdigris {
 /// The axis and the bin of every source frame, known before a frame is decoded.
 struct AxisPlan {
     UnitAxis axis;
-    double span_seconds = 0;       ///< first to last frame, plus one typical step
-    double step_seconds = 0;       ///< the median step between frames
+    double span_seconds = 0;            ///< first to last frame, plus one typical step
+    double step_seconds = 0;            ///< the median step between frames
     bool one_frame_per_sample = false;  ///< sample i is frame i
-    std::vector<int> bin_of_frame; ///< non-decreasing
+    std::vector<int> bin_of_frame;      ///< non-decreasing
     std::vector<int> frames_in_bin;
-    Statuses notes;                ///< equal or irregular time stamps
+    Statuses notes;  ///< equal or irregular time stamps
 };
 
 /// Rule (docs/models/observe.md, 1): without `units`, >= 1.5 * 98.4 frames span 98.4 units with
