@@ -24,11 +24,17 @@ struct TestFrame {
 template <class T>
 SampleType type_of();
 template <>
-SampleType type_of<std::uint8_t>() { return SampleType::u8; }
+SampleType type_of<std::uint8_t>() {
+    return SampleType::u8;
+}
 template <>
-SampleType type_of<std::uint16_t>() { return SampleType::u16; }
+SampleType type_of<std::uint16_t>() {
+    return SampleType::u16;
+}
 template <>
-SampleType type_of<float>() { return SampleType::f32; }
+SampleType type_of<float>() {
+    return SampleType::f32;
+}
 
 template <class T>
 TestFrame<T> random_frame(int n, int rows, std::mt19937& random) {
@@ -50,7 +56,10 @@ Frame frame_of(TestFrame<T>& data, int width, int height, int channels) {
     Frame frame;
     frame.planes.count = 1;
     frame.planes.plane[0] = {reinterpret_cast<const std::byte*>(data.samples.data()),
-                             data.stride * std::ptrdiff_t(sizeof(T)), width, height, channels,
+                             data.stride * std::ptrdiff_t(sizeof(T)),
+                             width,
+                             height,
+                             channels,
                              type_of<T>()};
     return frame;
 }
@@ -83,7 +92,8 @@ TYPED_TEST(TrimmedMean, EqualsSortingForEveryCount) {
         std::vector<TestFrame<T>> frames;
         BinAccumulator bin(format, part, 0.1);
         bin.begin(count);
-        for (int i = 0; i < count; ++i) frames.push_back(random_frame<T>(3 * width, height, random));
+        for (int i = 0; i < count; ++i)
+            frames.push_back(random_frame<T>(3 * width, height, random));
         for (auto& frame : frames) bin.add(frame_of(frame, width, height, 3));
         ASSERT_EQ(bin.count(), count);
         const PlaneSet means = bin.means();
@@ -95,8 +105,9 @@ TYPED_TEST(TrimmedMean, EqualsSortingForEveryCount) {
                 std::vector<double> values;
                 for (auto& frame : frames) values.push_back(double(frame.at(3 * part.x + x, y)));
                 const double expected = reference(values, 0.1);
-                ASSERT_NEAR(double(row[x]), expected, 1e-6 * std::max(1.0, std::fabs(expected)) +
-                                                          (std::is_same_v<T, float> ? 1e-5 : 0))
+                ASSERT_NEAR(double(row[x]), expected,
+                            1e-6 * std::max(1.0, std::fabs(expected)) +
+                                (std::is_same_v<T, float> ? 1e-5 : 0))
                     << count << " frames, " << width << " x " << height << ", sample " << x;
             }
         }
@@ -141,7 +152,8 @@ TEST(BinAccumulator, SurvivesLostFrames) {
         BinAccumulator bin(format, {0, 0, width, height}, 0.1);
         bin.begin(37);
         std::vector<TestFrame<std::uint8_t>> frames;
-        for (int i = 0; i < came; ++i) frames.push_back(random_frame<std::uint8_t>(width, height, random));
+        for (int i = 0; i < came; ++i)
+            frames.push_back(random_frame<std::uint8_t>(width, height, random));
         for (auto& frame : frames) bin.add(frame_of(frame, width, height, 1));
         const PlaneSet means = bin.means();
         const float* row = reinterpret_cast<const float*>(means.plane[0].data);

@@ -30,15 +30,25 @@ struct Sums {
     using DW = hn::ScalableTag<W>;
     hn::Vec<DW> all;
 
-    HWY_ATTR void zero() { all = hn::Zero(DW()); }
-    HWY_ATTR void load(const W* from) { all = hn::Load(DW(), from); }
-    HWY_ATTR void store(W* to) const { hn::Store(all, DW(), to); }
-    HWY_ATTR void add(hn::Vec<D> v) { all = hn::Add(all, hn::PromoteTo(DW(), v)); }
+    HWY_ATTR void zero() {
+        all = hn::Zero(DW());
+    }
+    HWY_ATTR void load(const W* from) {
+        all = hn::Load(DW(), from);
+    }
+    HWY_ATTR void store(W* to) const {
+        hn::Store(all, DW(), to);
+    }
+    HWY_ATTR void add(hn::Vec<D> v) {
+        all = hn::Add(all, hn::PromoteTo(DW(), v));
+    }
 #else
     using DW = hn::Repartition<W, D>;
     hn::Vec<DW> lower, upper;
 
-    HWY_ATTR void zero() { lower = upper = hn::Zero(DW()); }
+    HWY_ATTR void zero() {
+        lower = upper = hn::Zero(DW());
+    }
     HWY_ATTR void load(const W* from) {
         lower = hn::Load(DW(), from);
         upper = hn::Load(DW(), from + hn::Lanes(DW()));

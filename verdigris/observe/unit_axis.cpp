@@ -13,8 +13,6 @@ namespace {
 // chosen: below this many frames per unit a unit grid would average pairs here and single frames
 // there; one frame per sample keeps every sample equally noisy.
 constexpr double kFramesForUnitGrid = 1.5 * kUnitsPerRecording;
-// chosen: as RecordingInfo::variable_rate.
-constexpr double kRegularTolerance = 0.01;
 // derived: 984 grid samples of which 950 are usable in the paper, 17 lost at each end.
 constexpr int kPaperGrid = 984, kPaperTrim = 17;
 
@@ -26,14 +24,12 @@ double median_step(const std::vector<double>& times) {
     return *middle;
 }
 
-bool is_regular(const std::vector<double>& times, double step) {
-    // Each stamp against its place on a straight line, so that rounded stamps (33, 33, 34 ms)
-    // count as regular.
-    const double mean = (times.back() - times.front()) / double(times.size() - 1);
-    if (!(step > 0) || std::fabs(mean - step) > kRegularTolerance * step) return false;
+// Regular: every stamp lies within half a step of its place on a straight line, so that on an even
+// grid of as many bins every frame has a bin of its own. Rounded stamps (33, 33, 34 ms) are.
+bool is_regular(const std::vector<double>& times) {
+    const double step = (times.back() - times.front()) / double(times.size() - 1);
     for (std::size_t i = 1; i < times.size(); ++i) {
-        const double off = times[i] - (times.front() + double(i) * mean);
-        if (std::fabs(off) > 0.5 * step) return false;
+        if (std::fabs(times[i] - (times.front() + double(i) * step)) >= 0.5 * step) return false;
     }
     return true;
 }
@@ -49,12 +45,12 @@ AxisPlan plan_axis(const std::vector<double>& stamps, std::optional<double> unit
         plan.notes.push_back({"times_equal", Severity::caution,
                               "all frames carry the same time; they are taken as evenly spaced"});
     }
-    plan.step_seconds = median_step(times);
-    if (!(plan.step_seconds > 0)) {  // more than half of the stamps repeat
+    const bool regular = is_regular(times);
+    plan.step_seconds = regular ? 0 : median_step(times);
+    if (!(plan.step_seconds > 0)) {  // regular, or more than half of the stamps repeat
         plan.step_seconds = (times.back() - times.front()) / double(frames - 1);
     }
     plan.span_seconds = times.back() - times.front() + plan.step_seconds;
-    const bool regular = is_regular(times, plan.step_seconds);
 
     UnitAxis& axis = plan.axis;
     if (units) {

@@ -29,10 +29,10 @@ struct MadeScene {
     int width = 320, height = 240;
     double center_x = 150, center_y = 125, plate_width = 120, plate_height = 90;
     double tilt_degrees = 0;
-    double noise = 2.0 / 255;        ///< standard deviation per pixel and channel
-    double darkening = 0.35;         ///< share of the plate's light lost from first to last frame
-    double illumination_drift = 0;   ///< +-, one period over the recording
-    bool glint = false;              ///< a white spot that crosses the plate
+    double noise = 2.0 / 255;       ///< standard deviation per pixel and channel
+    double darkening = 0.35;        ///< share of the plate's light lost from first to last frame
+    double illumination_drift = 0;  ///< +-, one period over the recording
+    bool glint = false;             ///< a white spot that crosses the plate
     double backdrop = 0.45, gradient = 0.1;
 
     bool on_plate(double x, double y) const {
@@ -54,8 +54,10 @@ struct MadeScene {
         const double light = 1 + illumination_drift * std::sin(6.283185307179586 * progress);
         double c[3];
         if (on_plate(x, y)) {
-            const double texture = 1 + 0.05 * gaussian(std::uint64_t(y) * 100003 + std::uint64_t(x));
-            const double rate = 0.6 + 0.8 * uniform(std::uint64_t(x / 8) * 977 + std::uint64_t(y / 8));
+            const double texture =
+                1 + 0.05 * gaussian(std::uint64_t(y) * 100003 + std::uint64_t(x));
+            const double rate =
+                0.6 + 0.8 * uniform(std::uint64_t(x / 8) * 977 + std::uint64_t(y / 8));
             const double left = 1 - darkening * progress * rate;
             c[0] = 0.72 * texture * left;
             c[1] = 0.45 * texture * left;
@@ -74,7 +76,8 @@ struct MadeScene {
             for (int x = 0; x < width; ++x) {
                 SrgbF c = ideal(x, y, progress);
                 const std::uint64_t key =
-                    ((std::uint64_t(index) * 4096 + std::uint64_t(y)) * 4096 + std::uint64_t(x)) * 3;
+                    ((std::uint64_t(index) * 4096 + std::uint64_t(y)) * 4096 + std::uint64_t(x)) *
+                    3;
                 c.r += float(noise * gaussian(key));
                 c.g += float(noise * gaussian(key + 1));
                 c.b += float(noise * gaussian(key + 2));
