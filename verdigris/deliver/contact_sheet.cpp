@@ -42,7 +42,8 @@ void draw_header(SheetCanvas& canvas, const Delivery& delivery, const SheetLayou
     const double width = s.width - 2 * s.margin;
     put(canvas, s.margin, s.title_y, width, delivery.title, kTitle);
     put(canvas, s.margin, s.facts_y, width,
-        fmt::format("Forecaster: {}    Fitted on the last n = {} frames    {:.4g} units observed",
+        fmt::format("Forecaster: {}  \xC2\xB7  fitted on the last n = {} frames  \xC2\xB7  {:.4g} "
+                    "units observed",
                     delivery.forecast->forecaster, delivery.forecast->context_length,
                     delivery.units_observed),
         kFacts);
@@ -161,8 +162,9 @@ Image<SrgbU8> draw_contact_sheet(const Delivery& delivery, const Progress& progr
     notes.draw(canvas, s.notes.x, s.notes.y);
     canvas.line(s.margin, footer_y - 30, s.width - s.margin, footer_y - 30, kRule, 1, false);
     put(canvas, s.margin, footer_y, s.width - 2 * s.margin,
-        fmt::format("Everything right of \"now\" is computed, not photographed.    verdigris {}",
-                    writer_version()),
+        fmt::format(
+            "Forecast frames and all maps are computed, not photographed.  \xC2\xB7  verdigris {}",
+            writer_version()),
         kFooter);
     return canvas.pixels();
 }

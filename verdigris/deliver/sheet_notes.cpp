@@ -30,6 +30,15 @@ SeverityWord word_of(Severity severity) {
     return {"NOTE", kBlue};
 }
 
+// "31 %" stays on one line.
+std::string with_tied_percent(std::string text) {
+    const std::string tied = "\xC2\xA0%";  // a no-break space
+    for (std::size_t at = 0; (at = text.find(" %", at)) != std::string::npos; at += tied.size()) {
+        text.replace(at, 2, tied);
+    }
+    return text;
+}
+
 }  // namespace
 
 void SheetNotes::add(const std::string& text, const TextStyle& style, int indent, int advance) {
@@ -40,7 +49,7 @@ void SheetNotes::add_paragraph(const std::string& text, const TextStyle& style, 
                                int before, int max_lines) {
     int advance = before;
     for (const std::string& line :
-         wrapped(printable(text), width_ - indent, max_lines, measure(style))) {
+         wrapped(with_tied_percent(printable(text)), width_ - indent, max_lines, measure(style))) {
         add(line, style, indent, advance);
         advance = kLeading;
     }

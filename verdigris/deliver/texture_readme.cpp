@@ -3,17 +3,31 @@
 
 #include <string>
 
+#include "verdigris/deliver/text_wrap.h"
 #include "verdigris/deliver/textures.h"
 
 namespace verdigris {
 namespace {
 
+// chosen: text files are read at 80 to 100 columns.
+constexpr int kColumns = 96;
+
+std::string paragraph(const std::string& text, const std::string& indent, int first_indent) {
+    std::string lines;
+    const double width = kColumns - double(first_indent);
+    for (const std::string& line :
+         wrapped(text, width, 1000, [](const std::string& part) { return double(part.size()); })) {
+        lines += (lines.empty() ? std::string() : indent) + line + "\n";
+    }
+    return lines;
+}
+
 // One line per map that Material carries an origin for.
 std::string origin_lines(const Forecast& forecast) {
     std::string lines;
     for (const MapOrigin& origin : map_origins(forecast)) {
-        lines += fmt::format("  {:<10} {:<9} {}\n", origin.map, to_string(origin.origin),
-                             origin.sentence);
+        lines += fmt::format("  {:<10} {:<9} {}", origin.map, to_string(origin.origin),
+                             paragraph(origin.sentence, std::string(23, ' '), 23));
     }
     return lines;
 }
@@ -31,7 +45,6 @@ std::string texture_readme(const Delivery& delivery, const DeliveredState& state
     return fmt::format(
         R"({title}
 {what}{unit}
-
 Maps, {width} x {height} pixels, row 0 at the top, not made to tile
   {prefix}_Color.png         base color        8 bit   sRGB (tagged)
   {prefix}_NormalGL.png      normal, +Y up     8 bit   linear, Non-Color
@@ -56,8 +69,9 @@ How the maps are known
 What is forecast and what is photographed is also in each PNG's XMP (IPTC digital source type).
 Written by verdigris {version}.
 )",
-        fmt::arg("title", delivery.title), fmt::arg("what", what), fmt::arg("unit", kUnitSentence),
-        fmt::arg("width", width), fmt::arg("height", height), fmt::arg("prefix", prefix),
+        fmt::arg("title", delivery.title), fmt::arg("what", what),
+        fmt::arg("unit", paragraph(kUnitSentence, "", 0)), fmt::arg("width", width),
+        fmt::arg("height", height), fmt::arg("prefix", prefix),
         fmt::arg("origins", origin_lines(*delivery.forecast)),
         fmt::arg("version", writer_version()));
 }

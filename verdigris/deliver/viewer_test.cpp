@@ -71,7 +71,7 @@ TEST(ViewerJson, HasEveryFieldOfTheFormat) {
     }
     EXPECT_EQ(document["material"]["normal_scale"], made.recipe.options.normal_scale);
     EXPECT_EQ(document["material"]["tau"], made.recipe.tau);
-    EXPECT_EQ(document.size(), 17u);
+    EXPECT_EQ(document.size(), 18u);
 }
 
 TEST(ViewerJson, BlobsReturnWithinHalfAStep) {
