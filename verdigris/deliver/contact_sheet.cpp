@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "verdigris/deliver/sheet_canvas.h"
+#include "verdigris/deliver/sheet_chart.h"
 #include "verdigris/deliver/sheet_layout.h"
 #include "verdigris/deliver/sheet_notes.h"
 #include "verdigris/deliver/sheet_tiles.h"
@@ -94,7 +95,7 @@ void draw_frames(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& ti
 
 void draw_legend(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& tiles) {
     const Rect& at = s.legend;
-    canvas.text(at.x, s.change_heading_y, "CHANGE FROM THE LAST OBSERVED FRAME", kHeading);
+    canvas.text(at.x, s.change_heading_y, "CHANGE FROM LAST OBSERVED", kHeading);
     const int bar_width = std::min(at.width, 320), bar_height = 16;
     Image<float> ramp(bar_width, bar_height);
     for (int y = 0; y < bar_height; ++y) {
@@ -114,7 +115,7 @@ void draw_legend(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& ti
     // Right-aligned where there is room, so that the label stays under the bar.
     canvas.text(at.x + bar_width - width(full), tick_y, full, kSmall);
     double y = tick_y + 34;
-    for (const std::string& line : wrapped(tiles.change_scale_note, at.width, 3, width)) {
+    for (const std::string& line : wrapped(tiles.change_scale_note, at.width, 5, width)) {
         canvas.text(at.x, y, line, kSmall);
         y += 22;
     }
@@ -158,6 +159,10 @@ Image<SrgbU8> draw_contact_sheet(const Delivery& delivery, const Progress& progr
     draw_header(canvas, delivery, s);
     draw_frames(canvas, s, tiles);
     draw_legend(canvas, s, tiles);
+    if (s.chart.width > 0) {
+        canvas.text(s.chart.x, s.change_heading_y, "MEAN CHANGE, BY UNITS", kHeading);
+        draw_chart(canvas, s.chart, change_curve(delivery));
+    }
     draw_maps(canvas, s, tiles);
     notes.draw(canvas, s.notes.x, s.notes.y);
     canvas.line(s.margin, footer_y - 30, s.width - s.margin, footer_y - 30, kRule, 1, false);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "verdigris/color/convert.h"
+#include "verdigris/deliver/sheet_chart.h"
 #include "verdigris/deliver/sheet_layout.h"
 #include "verdigris/deliver/sheet_tiles.h"
 #include "verdigris/deliver/testing.h"
@@ -130,6 +131,21 @@ TEST(SheetTiles, MarkHorizonsBeyondTwiceTheContext) {
     EXPECT_TRUE(tiles.forecast[2].beyond_trust);
     EXPECT_EQ(tiles.maps_heading, "MATERIAL AT +20 u");
     EXPECT_EQ(trusted_horizon(made.delivery), 20);
+}
+
+TEST(ChangeCurve, KnownAnswers) {
+    MadeDelivery made(20, 20);
+    for (SrgbF& c : made.forecast.trajectory.rate.pixels()) c = {0.001f, -0.001f, 0.001f};
+    for (SrgbF& c : made.delivery.observed[0].image.pixels()) c.r += 0.03f;
+    const ChangeCurve curve = change_curve(made.delivery);
+    ASSERT_EQ(curve.observed.size(), 2u);
+    EXPECT_EQ(curve.observed[0].unit, -4);
+    EXPECT_NEAR(curve.observed[0].change, 0.01, 1e-6);
+    EXPECT_EQ(curve.observed[1].change, 0);
+    ASSERT_EQ(curve.forecast.size(), 3u);
+    EXPECT_EQ(curve.forecast[0].change, 0);
+    EXPECT_NEAR(curve.forecast[2].change, 0.02, 1e-6);
+    EXPECT_EQ(curve.trusted_until, 20);
 }
 
 TEST(ChangeMap, KnownAnswers) {

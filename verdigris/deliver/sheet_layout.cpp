@@ -18,6 +18,9 @@ constexpr int kRowGap = 56;         // from labels to the next heading's baselin
 constexpr int kLegendHeight = 148;  // color bar, ticks, three lines
 constexpr int kMinNotes = 560;      // narrower, and the notes go below
 constexpr int kMinWidth = 1280;
+constexpr int kLegendWidth = 340;
+constexpr int kMinChart = 420;     // narrower, it says nothing
+constexpr int kChartHeight = 190;  // at least; else as high as a tile
 
 int columns_width(int columns, int column) {
     return columns > 0 ? columns * column + (columns - 1) * kGap : 0;
@@ -75,8 +78,13 @@ SheetLayout lay_out(const SheetContent& content) {
     s.change_heading_y = frames_y + s.tile.height + kLabels + kRowGap;
     const int change_y = s.change_heading_y + kHeadingToTile;
     s.change = tiles(content.forecast, forecast_x, change_y, column, s.tile);
-    s.legend = {kMargin, change_y, std::min(seen_width, 640), kLegendHeight};
-    const int change_bottom = change_y + std::max(s.tile.height + kLabels, kLegendHeight);
+    s.legend = {kMargin, change_y, std::min(seen_width, kLegendWidth), kLegendHeight};
+    const int chart_x = s.legend.x + s.legend.width + kDividerGap;
+    if (const int width = kMargin + seen_width - chart_x; width >= kMinChart) {
+        s.chart = {chart_x, change_y, width, std::max(s.tile.height, kChartHeight)};
+    }
+    const int change_bottom =
+        change_y + std::max({s.tile.height + kLabels, kLegendHeight, s.chart.height});
 
     s.divider_x = kMargin + seen_width + kDividerGap / 2;
     s.divider_top = s.frames_heading_y - 16;

@@ -32,6 +32,7 @@ struct SheetLayout {
     int column_width = 0;                  ///< for labels: at least as wide as a tile
     int divider_x = 0, divider_top = 0, divider_bottom = 0;
     Rect legend;          ///< of the change maps, left of them
+    Rect chart;           ///< right of the legend; empty if there is no room
     Rect notes;           ///< height 0: as long as the text needs
     int maps_bottom = 0;  ///< below the labels of row 3
 };

@@ -22,6 +22,7 @@ TEST(SheetLayout, NothingOverlapsAndAllIsOnTheSheet) {
             for (int forecast : {0, 1, 3, 6}) {
                 const SheetLayout s = lay_out({picture, observed, forecast, 6});
                 std::vector<Rect> blocks{s.legend};
+                if (s.chart.width > 0) blocks.push_back(s.chart);
                 for (const auto* row : {&s.observed, &s.forecast, &s.change, &s.maps}) {
                     for (const Rect& tile : *row) blocks.push_back(with_labels(tile, s));
                 }

@@ -49,6 +49,16 @@ double mean_inside(const Image<float>& map, const Mask& where) {
     return count > 0 ? sum / double(count) : 0;
 }
 
+double round_scale(double largest) {
+    for (double decade : {0.01, 0.1, 1.0}) {
+        for (double step : {0.1, 0.2, 0.5, 1.0}) {
+            const double end = decade * step;
+            if (end >= kSmallestScale && end >= largest) return end;
+        }
+    }
+    return 1;
+}
+
 double change_scale(const std::vector<Image<float>>& maps, const Mask& where) {
     double largest = 0;
     for (const Image<float>& map : maps) {
@@ -62,13 +72,7 @@ double change_scale(const std::vector<Image<float>>& maps, const Mask& where) {
         std::nth_element(values.begin(), nth, values.end());
         largest = std::max(largest, double(*nth));
     }
-    for (double decade : {0.01, 0.1, 1.0}) {
-        for (double step : {0.1, 0.2, 0.5, 1.0}) {
-            const double end = decade * step;
-            if (end >= kSmallestScale && end >= largest) return end;
-        }
-    }
-    return 1;
+    return round_scale(largest);
 }
 
 Image<SrgbU8> magma(const Image<float>& map, double full) {
