@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "verdigris/files/exif.h"
 #include "verdigris/files/image_file.h"
 #include "verdigris/files/input_file.h"
 
@@ -18,15 +19,15 @@ namespace verdigris {
 enum class Want { header, pixels };
 
 struct Decoded {
-    /// width and height as coded; orientation as far as the codec itself knows it.
+    /// width and height as coded; orientation, taken and camera are filled from `exif` later.
     ImageInfo info;
     /// As coded: not turned, not converted. Gray is replicated already. Empty for Want::header.
     std::variant<Image<SrgbU8>, Image<SrgbU16>, Image<LinearF>> pixels;
     bool gray = false;
-    std::vector<std::byte> icc;   ///< an embedded profile, empty if none
-    std::vector<std::byte> exif;  ///< a TIFF structure without the "Exif" prefix, empty if none
-    bool tagged_srgb = false;     ///< the container itself says sRGB
-    Statuses notes;
+    std::vector<std::byte> icc;  ///< an embedded profile, empty if none
+    ExifFacts exif;
+    bool tagged_srgb = false;  ///< the container itself says sRGB
+    Statuses notes;            ///< without the file's name, which read_image puts before them
 };
 
 Decoded decode_png(InputFile& file, Want want);

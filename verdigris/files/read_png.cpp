@@ -97,21 +97,20 @@ void read_color(Reader& reader, Decoded& out) {
     // 1/2.2 is what writers put for sRGB. chosen: 5 % around it is no visible difference.
     if (std::abs(gamma * 2.2 - 1) > 0.05) {
         const bool linear = std::abs(gamma - 1) < 0.01;
-        out.notes.push_back({"gamma_ignored", Severity::caution,
-                             reader.file.path().filename().string() +
-                                 (linear ? " says that its samples are linear light (gAMA 1.0)"
-                                         : " carries an unusual gamma (gAMA)") +
-                                 "; they are read as sRGB all the same: convert it, or remove the "
-                                 "gAMA chunk if it is wrong"});
+        out.notes.push_back(
+            {"gamma_ignored", Severity::caution,
+             std::string(linear ? "says that its samples are linear light (gAMA 1.0)"
+                                : "carries an unusual gamma (gAMA)") +
+                 "; they are read as sRGB all the same: convert it, or remove the "
+                 "gAMA chunk if it is wrong"});
     }
 }
 
-void read_exif(Reader& reader, Decoded& out) {
+void read_exif_chunk(Reader& reader, Decoded& out) {
     png_bytep exif = nullptr;
     png_uint_32 length = 0;
     if (png_get_eXIf_1(reader.png, reader.info, &length, &exif)) {
-        const auto* bytes = reinterpret_cast<const std::byte*>(exif);
-        out.exif.assign(bytes, bytes + length);
+        out.exif = read_exif({reinterpret_cast<const std::byte*>(exif), length});
     }
 }
 
@@ -153,12 +152,11 @@ Decoded decode_png(InputFile& file, Want want) {
     out.info.bits = h.bits == 16 ? 16 : 8;
     out.gray = !(h.color_type & PNG_COLOR_MASK_COLOR);
     read_color(reader, out);
-    read_exif(reader, out);
+    read_exif_chunk(reader, out);
     const bool alpha = (h.color_type & PNG_COLOR_MASK_ALPHA) ||
                        png_get_valid(reader.png, reader.info, PNG_INFO_tRNS);
     if (alpha) {
-        out.notes.push_back({"alpha_dropped", Severity::info,
-                             file.path().filename().string() + ": the alpha channel is ignored"});
+        out.notes.push_back({"alpha_dropped", Severity::info, "the alpha channel is ignored"});
     }
     if (want == Want::header) return out;
     if (h.bits == 16) {
@@ -167,7 +165,7 @@ Decoded decode_png(InputFile& file, Want want) {
         out.pixels = read_rgb<SrgbU8>(reader, h);
     }
     // An eXIf chunk may also follow the pixels.
-    if (out.exif.empty()) read_exif(reader, out);
+    read_exif_chunk(reader, out);
     return out;
 }
 
