@@ -9,7 +9,7 @@
 namespace verdigris {
 namespace {
 
-// Four characters read as a little-endian number, [glTF] 4.4.
+// Four characters read as a little-endian number, [Gltf20] 4.4.
 constexpr std::uint32_t kMagic = 0x46546C67;      // "glTF"
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;  // "JSON"
 constexpr std::uint32_t kBinChunk = 0x004E4942;   // "BIN\0"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The container of binary glTF: a header, a JSON chunk, a binary chunk. Written by hand because
 // tinygltf 2.7 stores images in a GLB as data URIs, which the Khronos validator warns about.
-// Source: [glTF] 4.4 (GLB File Format), 3.6 (Binary Data Storage).
+// Source: [Gltf20] 4.4 (GLB File Format), 3.6 (Binary Data Storage).
 #pragma once
 
 #include <cstddef>

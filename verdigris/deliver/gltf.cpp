@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Based on: [glTF] 3.9 (Materials), 3.7 (Meshes); KHR_materials_variants [glTF-variants].
+// Based on: [Gltf20] 3.9 (Materials), 3.7 (Meshes); KHR_materials_variants [GltfVariants].
 #include "verdigris/deliver/gltf.h"
 
 #include <fmt/format.h>
@@ -98,7 +98,7 @@ int add_texture(Json& gltf, GlbBuffer& buffer, std::span<const std::byte> png,
     return int(gltf["textures"].size()) - 1;
 }
 
-// Base color must be 8-bit here ([glTF] 3.9.2); the 16-bit masters are in the texture packs.
+// Base color must be 8-bit here ([Gltf20] 3.9.2); the 16-bit masters are in the texture packs.
 std::array<std::vector<std::byte>, 3> state_images(const Delivery& delivery,
                                                    const DeliveredState& state,
                                                    const Material& material) {
