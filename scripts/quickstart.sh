@@ -20,6 +20,6 @@ name=$(basename "$1")
 out=${2:-$root/out/${name%.*}}
 mkdir -p "$(dirname "$out")"
 echo
-"$root/build/release/verdigris" age "$1" -o "$out"
+"$root/build/release/bin/verdigris" age "$1" -o "$out"
 echo
-echo "The program is $root/build/release/verdigris (try: verdigris --help)"
+echo "The program is $root/build/release/bin/verdigris (try: verdigris --help)"

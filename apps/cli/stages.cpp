@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "json_of.h"
+#include "verdigris/color/convert.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/png.h"
 #include "verdigris/forecast/choose.h"
