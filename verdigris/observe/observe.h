@@ -37,29 +37,29 @@ enum class Keep {
 
 struct ObserveOptions {
     CropChoice crop;
-    int size = 0;                 ///< side of the (square) result in pixels; 0: native, no resampling
+    int size = 0;  ///< side of the (square) result in pixels; 0: native, no resampling
     std::optional<double> units;  ///< units the recording spans; default see docs/models/observe.md
     std::optional<double> tau;    ///< dead-zone; default 2.40 * sigma, at least 5e-4 [D.2]
     Keep keep{Keep::unit_steps};
-    double trim = 0.1;            ///< share trimmed at each end of a bin, per pixel and channel
+    double trim = 0.1;  ///< share trimmed at each end of a bin, per pixel and channel
     /// Where kept samples are written as they are made (samples.npy). Empty: an unnamed temporary.
     std::filesystem::path store;
 };
 
 /// The time axis. sample i is centered at (i + 0.5) / samples * units.
 struct UnitAxis {
-    double units = 0;            ///< units the whole recording spans
-    int samples = 0;             ///< bins on the axis
-    int samples_per_unit = 1;    ///< the stride between unit steps
-    double seconds_per_unit = 0; ///< of the recording, not of the world
+    double units = 0;             ///< units the whole recording spans
+    int samples = 0;              ///< bins on the axis
+    int samples_per_unit = 1;     ///< the stride between unit steps
+    double seconds_per_unit = 0;  ///< of the recording, not of the world
 };
 
 /// One kept sample.
 struct Sample {
-    double unit = 0;          ///< position on the axis, units from the start of the recording
-    double seconds = 0;       ///< center of its bin in the recording
-    int frames = 0;           ///< source frames averaged
-    bool interpolated = false;///< the bin was empty: filled linearly from its neighbors
+    double unit = 0;            ///< position on the axis, units from the start of the recording
+    double seconds = 0;         ///< center of its bin in the recording
+    int frames = 0;             ///< source frames averaged
+    bool interpolated = false;  ///< the bin was empty: filled linearly from its neighbors
 };
 
 /// Kept samples, oldest first, stored as 16-bit encoded sRGB on disk and read on demand.
@@ -89,17 +89,17 @@ struct CropReport {
 
 /// What flows on to forecast/.
 struct Observation {
-    std::string source_name;   ///< file or folder name, no path
-    std::string source_sha256; ///< of the input bytes
+    std::string source_name;    ///< file or folder name, no path
+    std::string source_sha256;  ///< of the input bytes
     UnitAxis axis;
     std::vector<Sample> samples;
     std::shared_ptr<const SampleStore> store;
-    Mask specimen;             ///< 255: metal; 0: mount, backdrop
-    Mask clipped;              ///< 255: saturated in some kept sample (a glint, or pure black)
+    Mask specimen;  ///< 255: metal; 0: mount, backdrop
+    Mask clipped;   ///< 255: saturated in some kept sample (a glint, or pure black)
     Noise noise;
     CropReport crop;
     DecodeReport decode;
-    Statuses notes;            ///< broken tail, exposure steps, few frames, interpolated samples ...
+    Statuses notes;  ///< broken tail, exposure steps, few frames, interpolated samples ...
 
     int width() const { return store ? store->width() : 0; }
     int height() const { return store ? store->height() : 0; }

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/observe/observation_io.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "verdigris/error.h"
+#include "verdigris/files/atomic_file.h"
+#include "verdigris/files/npy.h"
+#include "verdigris/files/png.h"
+#include "verdigris/observe/testing/made_scene.h"
+#include "verdigris/recording/memory_recording.h"
+
+namespace verdigris {
+namespace {
+
+class ObservationIo : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::temp_directory_path() /
+                  (std::string("verdigris-observation-") +
+                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    Observation made(bool stored) const {
+        testing::MadeScene scene;
+        scene.width = 64;
+        scene.height = 48;
+        scene.center_x = 30;
+        scene.center_y = 24;
+        scene.plate_width = 30;
+        scene.plate_height = 24;
+        scene.glint = true;
+        std::vector<double> times;
+        for (int i = 0; i < 12; ++i) times.push_back(i < 9 ? i : i + 2);
+        ObserveOptions options;
+        options.crop.mode = CropMode::none;
+        if (stored) options.store = folder_ / "samples.npy";
+        return observe(
+            recording_from_function(64, 48, times, [=](int i) { return scene.frame(i, 12); }),
+            options);
+    }
+    std::string refusal() const {
+        try {
+            read_observation(folder_);
+        } catch (const Error& e) {
+            EXPECT_EQ(e.code(), ErrorCode::bad_input);
+            return e.what();
+        }
+        return "";
+    }
+    std::filesystem::path folder_;
+};
+
+void expect_equal(const Observation& a, const Observation& b) {
+    EXPECT_EQ(a.source_name, b.source_name);
+    EXPECT_EQ(a.source_sha256, b.source_sha256);
+    EXPECT_EQ(a.axis.units, b.axis.units);
+    EXPECT_EQ(a.axis.samples, b.axis.samples);
+    EXPECT_EQ(a.axis.samples_per_unit, b.axis.samples_per_unit);
+    EXPECT_EQ(a.axis.seconds_per_unit, b.axis.seconds_per_unit);
+    ASSERT_EQ(a.samples.size(), b.samples.size());
+    for (std::size_t i = 0; i < a.samples.size(); ++i) {
+        EXPECT_EQ(a.samples[i].unit, b.samples[i].unit);
+        EXPECT_EQ(a.samples[i].seconds, b.samples[i].seconds);
+        EXPECT_EQ(a.samples[i].frames, b.samples[i].frames);
+        EXPECT_EQ(a.samples[i].interpolated, b.samples[i].interpolated);
+    }
+    EXPECT_EQ(a.noise.sigma, b.noise.sigma);
+    EXPECT_EQ(a.noise.tau, b.noise.tau);
+    EXPECT_EQ(a.crop.rect, b.crop.rect);
+    EXPECT_EQ(a.crop.sentence, b.crop.sentence);
+    EXPECT_EQ(a.crop.area_share, b.crop.area_share);
+    EXPECT_EQ(a.decode.decoded, b.decode.decoded);
+    EXPECT_EQ(a.decode.first_lost, b.decode.first_lost);
+    ASSERT_EQ(a.notes.size(), b.notes.size());
+    for (std::size_t i = 0; i < a.notes.size(); ++i) {
+        EXPECT_EQ(a.notes[i].id, b.notes[i].id);
+        EXPECT_EQ(a.notes[i].severity, b.notes[i].severity);
+        EXPECT_EQ(a.notes[i].sentence, b.notes[i].sentence);
+    }
+    ASSERT_EQ(a.store->count(), b.store->count());
+    for (int i = 0; i < a.store->count(); ++i) {
+        const Image<SrgbF> p = a.store->image(i), q = b.store->image(i);
+        ASSERT_TRUE(p.same_size(q));
+        EXPECT_EQ(std::memcmp(p.row(0), q.row(0), p.byte_count()), 0);
+    }
+    for (const auto& [p, q] : {std::pair{&a.specimen, &b.specimen}, {&a.clipped, &b.clipped}}) {
+        ASSERT_TRUE(p->same_size(*q));
+        EXPECT_EQ(std::memcmp(p->row(0), q->row(0), p->byte_count()), 0);
+    }
+}
+
+TEST_F(ObservationIo, ComesBackAsItWas) {
+    for (const bool stored : {false, true}) {
+        const Observation written = made(stored);
+        EXPECT_FALSE(written.notes.empty());
+        write_observation(written, folder_);
+        expect_equal(written, read_observation(folder_));
+    }
+    // Overwriting an observation with what was read from it is no trouble.
+    write_observation(read_observation(folder_), folder_);
+    expect_equal(made(false), read_observation(folder_));
+}
+
+TEST_F(ObservationIo, NamesTheFileThatIsMissingOrBroken) {
+    EXPECT_NE(refusal().find("observation.json"), std::string::npos);
+    write_observation(made(false), folder_);
+    ASSERT_EQ(refusal(), "");
+    const std::string json = read_text(folder_ / "observation.json");
+
+    std::ofstream(folder_ / "observation.json") << json.substr(0, json.size() / 2);
+    EXPECT_NE(refusal().find("observation.json"), std::string::npos);
+    std::ofstream(folder_ / "observation.json") << "[1, 2]";
+    EXPECT_NE(refusal().find("is not an observation"), std::string::npos);
+    std::string newer = json;
+    newer.replace(newer.find("\"version\": 1"), 12, "\"version\": 9");
+    std::ofstream(folder_ / "observation.json") << newer;
+    EXPECT_NE(refusal().find("newer"), std::string::npos);
+    std::string wide = json;
+    wide.replace(wide.find("\"width\": 64"), 11, "\"width\": 65");
+    std::ofstream(folder_ / "observation.json") << wide;
+    EXPECT_NE(refusal().find("samples.npy"), std::string::npos);
+    std::string axis = json;
+    axis.replace(axis.find("\"samples_per_unit\": 1"), 21, "\"samples_per_unit\": 0");
+    std::ofstream(folder_ / "observation.json") << axis;
+    EXPECT_NE(refusal().find("time axis"), std::string::npos);
+    std::ofstream(folder_ / "observation.json") << json;
+    ASSERT_EQ(refusal(), "");
+
+    const auto size = std::filesystem::file_size(folder_ / "samples.npy");
+    std::filesystem::resize_file(folder_ / "samples.npy", size - 100);
+    EXPECT_NE(refusal().find("samples.npy"), std::string::npos);
+    write_npy(folder_ / "samples.npy", NpyType::u8, {12, 48, 64, 3},
+              std::vector<std::byte>(12 * 48 * 64 * 3));
+    EXPECT_NE(refusal().find("samples.npy"), std::string::npos);
+    std::filesystem::remove(folder_ / "samples.npy");
+    EXPECT_NE(refusal().find("samples.npy"), std::string::npos);
+
+    write_observation(made(false), folder_);
+    write_png(folder_ / "clipped.png", Mask(5, 5));
+    EXPECT_NE(refusal().find("clipped.png"), std::string::npos);
+    std::filesystem::remove(folder_ / "specimen.png");
+    EXPECT_NE(refusal().find("specimen.png"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace verdigris

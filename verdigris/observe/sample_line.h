@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The line of kept samples: fills empty bins from their neighbors, remembers where samples were
+// saturated, hands them to the store.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "verdigris/observe/observe.h"
+#include "verdigris/observe/sample_store.h"
+
+namespace verdigris {
+
+/// Where samples were saturated, and when. Per pixel: how often, and the two latest times.
+class ClipRecord {
+  public:
+    ClipRecord() = default;
+    ClipRecord(int width, int height);
+    void add(int position, const Image<SrgbF>& sample);
+    /// What must not steer a fit, of `count` samples: saturated in one of the last 10 (the longest
+    /// context of the paper), in two of the last third, or in a quarter of all. Dilated by one
+    /// pixel: demosaicing and blur carry a glint that far.
+    Mask mask(int count) const;
+
+  private:
+    struct History {
+        std::uint16_t times = 0, latest = 0, before = 0;  ///< positions + 1
+    };
+    Image<History> history_;
+};
+
+class SampleLine {
+  public:
+    /// `bins`: the bins to keep, increasing.
+    SampleLine(std::vector<int> bins, int width, int height, const std::filesystem::path& store);
+
+    /// The image of a kept bin; bins in between that were not given are interpolated.
+    void give(int bin, int frames, Image<SrgbF> image);
+    /// Bins after the last given one are dropped.
+    std::shared_ptr<const SampleStore> finish() { return sink_->finish(); }
+
+    /// What went to the store: bin, frames (0: interpolated).
+    struct Kept {
+        int bin = 0, frames = 0;
+    };
+    const std::vector<Kept>& kept() const { return kept_; }
+    Mask clipped() const { return clips_.mask(int(kept_.size())); }
+
+  private:
+    void emit(int bin, int frames, Image<SrgbF> image);
+    std::vector<int> bins_;
+    std::size_t next_ = 0;  ///< into bins_
+    std::unique_ptr<SampleSink> sink_;
+    ClipRecord clips_;
+    std::vector<Kept> kept_;
+    Image<SrgbF> last_;
+    int last_bin_ = -1;
+};
+
+}  // namespace verdigris
