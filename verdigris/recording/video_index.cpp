@@ -45,6 +45,7 @@ VideoIndex index_packets(VideoContainer& container) {
             entry.frame = packet->flags & AV_PKT_FLAG_DISCARD ? -1 : 0;  // outside the edit list
             any_pts = any_pts || packet->pts != AV_NOPTS_VALUE;
             any_time = any_time || entry.pts != AV_NOPTS_VALUE;
+            index.encrypted = index.encrypted || is_encrypted(*packet);
             index.packets.push_back(entry);
         }
         av_packet_unref(packet.get());
@@ -76,6 +77,8 @@ VideoIndex index_packets(VideoContainer& container) {
         const std::int64_t first = index.packets[std::size_t(index.packet_of_frame[0])].pts;
         index.times.push_back(double(entry.pts - first) * index.tick_seconds);
     }
+    int last = -1;
+    for (VideoPacket& entry : index.packets) entry.settled = last = std::max(last, entry.frame);
     return index;
 }
 

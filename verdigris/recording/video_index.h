@@ -15,6 +15,7 @@ struct VideoPacket {
     std::int64_t pts = 0;     ///< when it is shown, ticks (its decoding time where unknown)
     std::int64_t pos = -1;    ///< where it lies in the file, -1 if unknown
     int frame = -1;           ///< its place in showing order; -1: decoded, but never shown
+    int settled = -1;         ///< the last frame to be shown of all packets up to this one
     bool key = false;         ///< decoding can begin here
     bool disposable = false;  ///< no other frame builds on it
     bool cut = false;         ///< the file ends inside it, or the container knows it is damaged
@@ -27,7 +28,8 @@ struct VideoIndex {
     double tick_seconds = 0;          ///< the resolution of the container's clock
     bool has_times = true;            ///< false: no packet has a time stamp
     bool knows_showing_order = true;  ///< false: frames are counted as they leave the decoder
-    std::int64_t promised = 0;        ///< packets that the container's index announces, 0 if none
+    bool encrypted = false;
+    std::int64_t promised = 0;  ///< packets that the container's index announces, 0 if none
 
     int frame_count() const { return int(packet_of_frame.size()); }
     /// The packet to decode from so that `frame` and all after it come out whole.
