@@ -20,8 +20,9 @@ class ClipRecord {
     ClipRecord(int width, int height);
     void add(int position, const Image<SrgbF>& sample);
     /// What must not steer a fit, of `count` samples: saturated in one of the last 10 (the longest
-    /// context of the paper), in two of the last third, or in a quarter of all. Dilated by one
-    /// pixel: demosaicing and blur carry a glint that far.
+    /// context of the paper), in two of the last third, or in a 20th of all (the lamp's glint, even
+    /// if the surface has become matte since). Dilated by one pixel: demosaicing and blur carry a
+    /// glint that far.
     Mask mask(int count) const;
 
   private:
