@@ -67,10 +67,13 @@ Mask ClipRecord::mask(int count) const {
 }
 
 SampleLine::SampleLine(std::vector<int> bins, int width, int height,
-                       const std::filesystem::path& store)
-    : bins_(std::move(bins)),
-      sink_(make_sample_sink(store, width, height)),
-      clips_(width, height) {}
+                       const std::filesystem::path& store, bool looking)
+    : bins_(std::move(bins)), sink_(make_sample_sink(store, width, height)), clips_(width, height) {
+    const int count = int(bins_.size());
+    if (looking) look_at_ = evenly(count, std::min(count, kMaxLooks));
+    look_.frame_width = width;
+    look_.frame_height = height;
+}
 
 void SampleLine::give(int bin, int frames, Image<SrgbF> image) {
     for (; next_ < bins_.size() && bins_[next_] < bin; ++next_) {
@@ -90,7 +93,13 @@ void SampleLine::give(int bin, int frames, Image<SrgbF> image) {
 }
 
 void SampleLine::emit(int bin, int frames, Image<SrgbF> image) {
-    clips_.add(int(kept_.size()), image);
+    const int position = int(kept_.size());
+    clips_.add(position, image);
+    if (std::binary_search(look_at_.begin(), look_at_.end(), position)) {
+        look_.frames.push_back(look_sized(image));
+        look_.index.push_back(position);
+        look_.decodable = position + 1;
+    }
     kept_.push_back({bin, frames});
     sink_->append(std::move(image));
 }

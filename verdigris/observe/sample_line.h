@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "verdigris/observe/look.h"
 #include "verdigris/observe/observe.h"
 #include "verdigris/observe/sample_store.h"
 
@@ -34,8 +35,10 @@ class ClipRecord {
 
 class SampleLine {
   public:
-    /// `bins`: the bins to keep, increasing.
-    SampleLine(std::vector<int> bins, int width, int height, const std::filesystem::path& store);
+    /// `bins`: the bins to keep, increasing. With `looking`, a look at the samples is taken as
+    /// they pass.
+    SampleLine(std::vector<int> bins, int width, int height, const std::filesystem::path& store,
+               bool looking);
 
     /// The image of a kept bin; bins in between that were not given are interpolated.
     void give(int bin, int frames, Image<SrgbF> image);
@@ -47,6 +50,8 @@ class SampleLine {
         int bin = 0, frames = 0;
     };
     const std::vector<Kept>& kept() const { return kept_; }
+    /// Evenly spaced samples; frames are samples here.
+    Look take_look() { return std::move(look_); }
     Mask clipped() const { return clips_.mask(int(kept_.size())); }
 
   private:
@@ -58,6 +63,8 @@ class SampleLine {
     std::vector<Kept> kept_;
     Image<SrgbF> last_;
     int last_bin_ = -1;
+    std::vector<int> look_at_;
+    Look look_;
 };
 
 }  // namespace verdigris
