@@ -19,8 +19,8 @@ using Progress = std::function<bool(std::string_view stage, std::int64_t done, s
 inline void report(const Progress& progress, std::string_view stage, std::int64_t done,
                    std::int64_t total) {
     if (progress && !progress(stage, done, total)) {
-        throw Error(ErrorCode::interrupted, "interrupted while working on stage '" +
-                                                std::string(stage) + "'");
+        throw Error(ErrorCode::interrupted,
+                    "interrupted while working on stage '" + std::string(stage) + "'");
     }
 }
 

@@ -11,9 +11,8 @@ namespace {
 
 // Linear sRGB to XYZ, rounded to four digits as [IEC61966-2-1] prints it, rows summing to the
 // D65 white (0.9505, 1, 1.0890). The inverse is computed, never typed.
-constexpr std::array<std::array<double, 3>, 3> kXyzFromRgb{{{0.4124, 0.3576, 0.1805},
-                                                            {0.2126, 0.7152, 0.0722},
-                                                            {0.0193, 0.1192, 0.9505}}};
+constexpr std::array<std::array<double, 3>, 3> kXyzFromRgb{
+    {{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}}};
 constexpr double kWhiteX = 0.9505, kWhiteY = 1.0, kWhiteZ = 1.0890;
 
 constexpr std::array<std::array<double, 3>, 3> inverse(
@@ -41,14 +40,15 @@ std::array<float, 3> multiply(const std::array<std::array<double, 3>, 3>& m, dou
 // [CIE15] with the exact rational constants: delta = 6/29.
 constexpr double kDelta = 6.0 / 29.0;
 double lab_curve(double t) {
-    return t > kDelta * kDelta * kDelta ? std::cbrt(t)
-                                        : t / (3 * kDelta * kDelta) + 4.0 / 29.0;
+    return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29.0;
 }
 double lab_curve_inverse(double f) {
     return f > kDelta ? f * f * f : 3 * kDelta * kDelta * (f - 4.0 / 29.0);
 }
 
-float unit(float v) { return v > 0 ? std::min(v, 1.0f) : 0.0f; }  // NaN compares false: 0
+float unit(float v) {
+    return v > 0 ? std::min(v, 1.0f) : 0.0f;
+}  // NaN compares false: 0
 
 }  // namespace
 

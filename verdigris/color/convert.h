@@ -34,6 +34,8 @@ std::uint16_t u16_from_unit(float v);
 
 /// Luma of encoded sRGB with BT.709 weights [BT709]: the brightness the eye reads from a frame.
 inline constexpr float kLumaR = 0.2126f, kLumaG = 0.7152f, kLumaB = 0.0722f;
-inline float luma(SrgbF c) { return kLumaR * c.r + kLumaG * c.g + kLumaB * c.b; }
+inline float luma(SrgbF c) {
+    return kLumaR * c.r + kLumaG * c.g + kLumaB * c.b;
+}
 
 }  // namespace verdigris

@@ -76,7 +76,7 @@ void expect_round_trip(int bits, int channels) {
     for (const auto& [width, height] : {std::pair{1, 1}, {3, 200}, {257, 130}}) {
         const Image<P> image = picture<P>(width, height);
         for (const int level : {1, 6, 12}) {
-            const auto file = encode_png(image.view(), {.level = level, .text = {}});
+            const auto file = encode_png(image.view(), {.level = level});
             const auto samples = libpng_samples(file, bits, channels);
             ASSERT_EQ(samples.size(), image.byte_count());
             EXPECT_EQ(std::memcmp(samples.data(), image.row(0), samples.size()), 0)
@@ -161,14 +161,12 @@ TEST(Png, RefusesWhatNoPngCanHold) {
     EXPECT_EQ(error_of([] { encode_png(ImageView<const std::uint8_t>()); }).code(),
               ErrorCode::failed);
     for (const int level : {0, 13, -1}) {
-        EXPECT_EQ(
-            error_of([&] { encode_png(image.view(), {.level = level, .text = {}}); }).sentence(),
-            "PNG compression level " + std::to_string(level) + " is not in 1..12");
+        EXPECT_EQ(error_of([&] { encode_png(image.view(), {.level = level}); }).sentence(),
+                  "PNG compression level " + std::to_string(level) + " is not in 1..12");
     }
     const ScratchFolder folder;
-    EXPECT_EQ(
-        error_of([&] { write_png(folder / "a.png", image, {.level = 0, .text = {}}); }).where(),
-        (folder / "a.png").string());
+    EXPECT_EQ(error_of([&] { write_png(folder / "a.png", image, {.level = 0}); }).where(),
+              (folder / "a.png").string());
     EXPECT_EQ(error_of([&] { write_png(folder.path(), image); }).sentence(),
               "cannot be written: it is a folder");
     EXPECT_EQ(entry_count(folder.path()), 0);

@@ -76,6 +76,17 @@ struct Reader {
         T value = otherwise;
         return TIFFGetFieldDefaulted(tiff, tag, &value) ? value : otherwise;
     }
+    // libtiff hands rationals out as float or double, depending on its version.
+    double ratio(ttag_t tag) const {
+        const TIFFField* field = TIFFFieldWithTag(tiff, tag);
+        if (!field) return 0;
+        float single = 0;
+        double value = 0;
+        if (TIFFFieldSetGetSize(field) == int(sizeof(double))) {
+            return TIFFGetField(tiff, tag, &value) ? value : 0;
+        }
+        return TIFFGetField(tiff, tag, &single) ? double(single) : 0;
+    }
     std::string text(ttag_t tag) const {
         const char* value = nullptr;
         return TIFFGetField(tiff, tag, &value) && value ? value : "";
@@ -248,8 +259,8 @@ ExifFacts read_facts(const Reader& reader) {
         facts.date = reader.text(EXIFTAG_DATETIMEORIGINAL);
         facts.subseconds = reader.text(EXIFTAG_SUBSECTIMEORIGINAL);
         facts.offset = reader.text(EXIFTAG_OFFSETTIMEORIGINAL);
-        TIFFGetField(reader.tiff, EXIFTAG_EXPOSURETIME, &facts.exposure_seconds);
-        TIFFGetField(reader.tiff, EXIFTAG_FNUMBER, &facts.f_number);
+        facts.exposure_seconds = reader.ratio(EXIFTAG_EXPOSURETIME);
+        facts.f_number = reader.ratio(EXIFTAG_FNUMBER);
         std::uint16_t color_space = 0;
         if (TIFFGetField(reader.tiff, EXIFTAG_COLORSPACE, &color_space)) {
             facts.color_space = color_space;

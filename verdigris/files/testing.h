@@ -7,6 +7,9 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <span>
+#include <stdexcept>
 #include <string>
 
 #include "verdigris/error.h"
@@ -34,6 +37,13 @@ class ScratchFolder {
   private:
     std::filesystem::path path_;
 };
+
+/// A file without the care of AtomicFile (no fsync): for loops over hundreds of broken files.
+inline void put_bytes(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+    if (!file.flush()) throw std::runtime_error("no temporary file");
+}
 
 /// Number of entries in a folder, hidden ones included.
 inline int entry_count(const std::filesystem::path& folder) {

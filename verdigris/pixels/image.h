@@ -85,8 +85,8 @@ class Image {
     /// Contents undefined: for images whose every pixel is written next.
     static Image for_overwrite(int width, int height) {
         if (width < 0 || height < 0 ||
-            (width > 0 && std::size_t(height) >
-                              std::numeric_limits<std::ptrdiff_t>::max() / sizeof(P) / std::size_t(width))) {
+            (width > 0 && std::size_t(height) > std::numeric_limits<std::ptrdiff_t>::max() /
+                                                    sizeof(P) / std::size_t(width))) {
             throw std::length_error("image extent out of range");
         }
         Image image;

@@ -73,9 +73,10 @@ TEST(ParallelRows, PartialSumsDoNotDependOnTheThreadCount) {
 }
 
 TEST(ParallelRows, PassesExceptionsOn) {
-    EXPECT_THROW(parallel_rows(100, 1, [](RowRun run) {
-                     if (run.index == 50) throw std::runtime_error("row 50");
-                 }),
+    EXPECT_THROW(parallel_rows(100, 1,
+                               [](RowRun run) {
+                                   if (run.index == 50) throw std::runtime_error("row 50");
+                               }),
                  std::runtime_error);
 }
 

@@ -128,8 +128,9 @@ FrameFormat common_format(const std::filesystem::path& folder, const std::vector
                             "; a recording needs pictures of one size",
                         (folder / photo.name).string());
         }
-        // Pictures with a profile are converted to 16-bit sRGB when read.
-        const bool profile = info.color.starts_with("ICC");
+        // Pictures with another profile than sRGB become 16-bit sRGB when read.
+        const bool profile =
+            info.color.starts_with("ICC") && info.color.find("sRGB") == std::string::npos;
         if (info.is_float) {
             format.type = SampleType::f32;
         } else if ((info.bits > 8 || profile) && format.type == SampleType::u8) {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// What this build can do on this machine, and what each missing piece costs.
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+}
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <hwy/highway.h>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+#include "commands.h"
+#include "verdigris/deliver/deliver.h"
+
+namespace verdigris::cli {
+namespace fs = std::filesystem;
+namespace {
+
+std::string version_text(unsigned v) {
+    return fmt::format("{}.{}.{}", v >> 16, (v >> 8) & 255, v & 255);
+}
+
+std::string find_program(const std::string& name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const fs::path file = fs::path(folder) / name;
+        if (access(file.c_str(), X_OK) == 0) return file.string();
+    }
+    return {};
+}
+
+void run(Session& session) {
+    const auto line = [&](const std::string& name, const std::string& text) {
+        session.say(fmt::format("{:<14}{}", name, text));
+    };
+    Json out;
+    out["version"] = VERDIGRIS_VERSION;
+    line("verdigris", VERDIGRIS_VERSION);
+    line("ffmpeg libs",
+         fmt::format("libavformat {}, libavcodec {}", version_text(avformat_version()),
+                     version_text(avcodec_version())));
+    out["libavformat"] = version_text(avformat_version());
+    out["libavcodec"] = version_text(avcodec_version());
+
+    Json decoders = Json::object();
+    std::vector<std::string> have, lack;
+    for (const char* name : {"h264", "hevc", "mjpeg", "vp9", "av1", "ffv1"}) {
+        const AVCodecDescriptor* codec = avcodec_descriptor_get_by_name(name);
+        const bool found = codec && avcodec_find_decoder(codec->id);
+        decoders[name] = found;
+        (found ? have : lack).emplace_back(name);
+    }
+    out["decoders"] = decoders;
+    line("decoders", fmt::format("{}", fmt::join(have, ", ")));
+    if (!lack.empty()) {
+        line("", fmt::format("missing: {} (videos in these codecs are refused; install "
+                             "libavcodec-extra)",
+                             fmt::join(lack, ", ")));
+    }
+
+    std::vector<std::string> targets;
+    const auto supported = hwy::SupportedTargets();
+    for (auto bits = supported; bits != 0; bits &= bits - 1) {
+        targets.emplace_back(hwy::TargetName(bits & -bits));
+    }
+    out["cpu_threads"] = std::thread::hardware_concurrency();
+    out["simd"] = targets;
+    line("processor", fmt::format("{} threads; vector code for {}",
+                                  std::thread::hardware_concurrency(), fmt::join(targets, ", ")));
+    out["viewer_built_in"] = viewer_is_built_in();
+    line("viewer", viewer_is_built_in()
+                       ? "built in"
+                       : "missing: `age` writes no viewer.html; build with node >= 18 and npm");
+
+    struct Program {
+        const char *name, *use, *cost;
+    };
+    Json programs = Json::object();
+    for (const Program& p :
+         {Program{"xdg-open", "opens the viewer", "`view` only prints the path; open it yourself"},
+          Program{"chromium", "one browser that shows the viewer", "any other browser will do"},
+          Program{"blender", "imports aged.glb and the textures",
+                  "nothing: files are made without it"},
+          Program{"ffmpeg", "makes test clips", "only some tests are skipped"}}) {
+        const std::string path = find_program(p.name);
+        programs[p.name] = !path.empty();
+        line(p.name, path.empty() ? fmt::format("not found ({}); without it: {}", p.use, p.cost)
+                                  : fmt::format("found ({})", p.use));
+    }
+    out["programs"] = programs;
+    session.result(out);
+}
+
+}  // namespace
+
+void add_doctor(CLI::App& app, Session& session) {
+    CLI::App* command =
+        app.add_subcommand("doctor", "Versions, CPU features, what is missing and what it costs");
+    session.add_options(*command);
+    command->callback([&session] { session.action = [](Session& s) { run(s); }; });
+}
+
+}  // namespace verdigris::cli

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "arguments.h"
+#include "commands.h"
+#include "json_of.h"
+
+namespace verdigris::cli {
+namespace {
+
+struct Arguments {
+    std::string input, assume_matrix, assume_range;
+};
+
+void run(Session& session, const Arguments& a) {
+    RecordingOptions options;
+    options.assume_matrix = a.assume_matrix;
+    options.assume_range = a.assume_range;
+    const Recording recording = open_recording(a.input, options);
+    const Inspection i = inspect(recording, session.progress());
+    const RecordingInfo& info = recording.info();
+    const auto line = [&](const char* name, const std::string& text) {
+        session.say(fmt::format("{:<11}{}", name, text));
+    };
+    line("recording",
+         fmt::format("{}, {} ({})", info.path.filename().string(),
+                     info.kind == RecordingKind::video ? "video" : "photographs", info.codec));
+    line("frames", fmt::format("{} of {}x{}, {}", i.frames, info.width, info.height,
+                               info.variable_rate ? "variable rate" : "constant rate"));
+    line("times", fmt::format("from {}: {:.3f} s in all, step {:.3f} s, longest {:.3f} s",
+                              to_string(info.time_source), i.duration_seconds,
+                              i.median_step_seconds, i.longest_step_seconds));
+    line("color", info.color_description);
+    if (!info.camera.empty()) line("camera", info.camera);
+    line("units", fmt::format("{:.1f} accelerated units, {} sample{} each", i.units,
+                              i.samples_per_unit, i.samples_per_unit == 1 ? "" : "s"));
+    line("specimen", i.crop_sentence);
+    line("change", fmt::format("{:.2f} % of full scale from first to last; noise of one frame "
+                               "{:.2f} %",
+                               i.specimen_change * 100, i.noise_sigma * 100));
+    line("exposure", fmt::format("drifts by {:.2f} %, white balance by {:.2f} %",
+                                 i.exposure_drift * 100, i.white_balance_drift * 100));
+    line("clipped", fmt::format("{:.2f} % of the specimen", i.clipped_share * 100));
+    for (const Status& s : info.notes) session.tell(s);
+    for (const Status& s : i.findings) session.tell(s);
+    line("verdict", fmt::format("{}: {}", to_string(i.verdict), i.verdict_sentence));
+    session.result({{"recording", json_of(info)}, {"inspection", json_of(i)}});
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app, Session& session) {
+    auto a = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("inspect", "What is this recording, and is it fit?");
+    command->add_option("INPUT", a->input, "A video, or a folder of photographs")->required();
+    command->add_option("--assume-matrix", a->assume_matrix, "As in `age`");
+    command->add_option("--assume-range", a->assume_range, "As in `age`");
+    session.add_options(*command);
+    command->callback([a, &session] { session.action = [a](Session& s) { run(s, *a); }; });
+}
+
+}  // namespace verdigris::cli

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <system_error>
+
+#include "json_of.h"
+#include "verdigris/files/atomic_file.h"
+#include "verdigris/files/png.h"
+#include "verdigris/forecast/choose.h"
+#include "verdigris/forecast/guards.h"
+#include "verdigris/material/material_io.h"
+#include "verdigris/observe/observation_io.h"
+
+namespace verdigris::cli {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kOptionsFile = "options.json";
+/// chosen: enough to see the history on the slider, few enough to keep the page small.
+constexpr int kObservedFramesShown = 13;
+constexpr int kObservedFramesShownLarge = 7;
+constexpr std::size_t kLargeImage = 640 * 640;
+
+bool is_ours(const fs::path& output) {
+    return fs::exists(output / kManifestFile) || fs::exists(output / kObservedFolder);
+}
+
+std::vector<ObservedFrame> frames_to_show(const Observation& o) {
+    const int count = int(o.samples.size());
+    const std::size_t pixels = std::size_t(o.width()) * std::size_t(o.height());
+    const int most = pixels > kLargeImage ? kObservedFramesShownLarge : kObservedFramesShown;
+    const int shown = std::min(count, most);
+    std::vector<ObservedFrame> frames;
+    for (int i = 0; i < shown; ++i) {
+        const int index =
+            shown == 1 ? count - 1 : int(std::lround(double(i) * (count - 1) / (shown - 1)));
+        const double unit = o.samples[std::size_t(index)].unit - o.samples.back().unit;
+        frames.push_back({unit, o.store->image(index)});
+    }
+    return frames;
+}
+
+/// What decides an observation, beside the input bytes and the program's version.
+Json observation_key(const Json& options) {
+    return {{"version", VERDIGRIS_VERSION}, {"observe", options}};
+}
+
+}  // namespace
+
+void check_output_folder(const fs::path& output, const fs::path& input, bool force) {
+    std::error_code error;
+    if (!input.empty() && fs::is_directory(input, error)) {
+        const fs::path in = fs::weakly_canonical(input, error);
+        const fs::path out = fs::weakly_canonical(output, error);
+        const auto [in_end, out_rest] = std::mismatch(in.begin(), in.end(), out.begin(), out.end());
+        if (in_end == in.end()) {
+            throw Error(ErrorCode::usage,
+                        "the output folder lies inside the input folder; choose another with -o",
+                        output.string());
+        }
+    }
+    if (!fs::exists(output, error) || force) return;
+    if (!fs::is_directory(output, error)) {
+        throw Error(ErrorCode::failed, "is a file, not a folder; choose another with -o",
+                    output.string());
+    }
+    fs::directory_iterator entries(output, error);
+    if (error)
+        throw Error(ErrorCode::failed, "cannot be read: " + error.message(), output.string());
+    const bool has_foreign =
+        std::any_of(fs::begin(entries), fs::end(entries), [](const fs::directory_entry& e) {
+            return !e.path().filename().string().starts_with(".partial-");
+        });
+    if (has_foreign && !is_ours(output)) {
+        throw Error(ErrorCode::refused,
+                    "the output folder holds other files; choose an empty one or use --force",
+                    output.string());
+    }
+}
+
+void require_stage(const fs::path& output, const char* folder, const char* command) {
+    std::error_code error;
+    if (!fs::is_directory(output, error)) {
+        throw Error(ErrorCode::bad_input, "there is no such result folder", output.string());
+    }
+    if (!fs::is_directory(output / folder, error)) {
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("has no '{}' yet; run `verdigris {}` first", folder, command),
+                    output.string());
+    }
+}
+
+Json read_options(const fs::path& folder) {
+    std::error_code error;
+    if (!fs::exists(folder / kOptionsFile, error)) return Json::object();
+    Json options = Json::parse(read_text(folder / kOptionsFile), nullptr, false);
+    return options.is_object() ? options : Json::object();
+}
+void write_options(const fs::path& folder, const Json& options) {
+    write_file(folder / kOptionsFile,
+               options.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+Observation run_observe(Session& session, const fs::path& input, const fs::path& output,
+                        const ObserveArguments& arguments) {
+    ObserveOptions options = arguments.options();
+    const Json key = observation_key({{"options", json_of(options)},
+                                      {"assume_matrix", arguments.assume_matrix},
+                                      {"assume_range", arguments.assume_range}});
+    const Recording recording = open_recording(input, arguments.recording_options());
+    const Progress progress = session.progress();
+    const std::string hash = recording.sha256(progress);
+
+    const fs::path existing = output / kObservedFolder;
+    if (fs::exists(existing / kOptionsFile) && read_options(existing) == key) {
+        try {
+            Observation found = read_observation(existing);
+            if (found.source_sha256 == hash) {
+                session.say(fmt::format("observe: same input and options as in {}, kept",
+                                        existing.string()));
+                return found;
+            }
+        } catch (const Error&) {
+            session.say("observe: the earlier observation is damaged; observing again");
+        }
+    }
+
+    Observation observation;
+    {
+        StagedFolder staged(output);
+        const fs::path folder = staged.path() / kObservedFolder;
+        fs::create_directories(folder);
+        options.store = folder / "samples.npy";
+        observation = observe(recording, options, progress);
+        observation.source_sha256 = hash;
+        write_observation(observation, folder);
+        write_options(folder, key);
+        staged.commit();
+    }
+    return observation;
+}
+
+SavedForecast run_forecast(Session& session, const Observation& observation,
+                           const ForecastArguments& arguments) {
+    SavedForecast saved;
+    saved.horizons = arguments.sorted_horizons();
+    saved.source_name = observation.source_name;
+    saved.source_sha256 = observation.source_sha256;
+    const Forecaster forecaster = forecaster_by_name(arguments.forecaster, arguments.options());
+    saved.context = context_from(observation, arguments.context);
+    report(session.progress(), "forecast", 0, 1);
+    saved.forecast = forecaster.forecast(saved.context);
+    saved.forecast.guards = check_guards(saved.context, saved.forecast, saved.horizons);
+    if (!session.force) refuse_if_needed(saved.forecast.guards);
+    report(session.progress(), "forecast", 1, 1);
+    return saved;
+}
+
+void write_material_stage(const SavedForecast& saved, const MaterialRecipe& recipe,
+                          const fs::path& folder) {
+    write_recipe(recipe, folder);
+    Material material;
+    for (double horizon : saved.horizons) {
+        materialize(recipe, saved.forecast, horizon, material);
+        Image<std::uint16_t> coverage(material.coverage.width(), material.coverage.height());
+        std::transform(material.coverage.pixels().begin(), material.coverage.pixels().end(),
+                       coverage.pixels().begin(), u16_from_unit);
+        write_png(folder / ("coverage_" + horizon_label(horizon) + ".png"), coverage);
+    }
+}
+
+Json run_deliver(Session& session, const Observation& observation, const SavedForecast& saved,
+                 const MaterialRecipe& recipe, const Json& options, StagedFolder& staged) {
+    const Progress progress = session.progress();
+    Delivery delivery;
+    delivery.title = saved.source_name;
+    delivery.stem = asset_stem(fs::path(saved.source_name).stem().string());
+    delivery.horizons = saved.horizons;
+    delivery.forecast = &saved.forecast;
+    delivery.recipe = &recipe;
+    delivery.specimen = &observation.specimen;
+    delivery.observed = frames_to_show(observation);
+    delivery.guards = observation.notes;
+    delivery.guards.insert(delivery.guards.end(), saved.forecast.guards.begin(),
+                           saved.forecast.guards.end());
+    delivery.units_observed = observation.axis.units;
+    const Json observed = json_of(observation);
+    for (const auto& [name, value] : observed.items()) {
+        delivery.facts.emplace_back(name,
+                                    value.dump(-1, ' ', false, Json::error_handler_t::replace));
+    }
+    delivery.facts.emplace_back("options",
+                                options.dump(-1, ' ', false, Json::error_handler_t::replace));
+
+    const fs::path root = staged.path();
+    std::vector<fs::path> files;
+    for (const fs::path& file : write_textures(delivery, root / kTexturesFolder, progress)) {
+        files.push_back(fs::path(kTexturesFolder) / file);
+    }
+    write_gltf(delivery, root / kGltfFile, progress);
+    files.emplace_back(kGltfFile);
+    if (viewer_is_built_in()) {
+        write_viewer(delivery, root / kViewerFile, progress);
+        files.emplace_back(kViewerFile);
+    } else {
+        session.say(
+            "  note: this build has no viewer (built without node); see `verdigris doctor`");
+    }
+    write_contact_sheet(delivery, root / kSheetFile, progress);
+    files.emplace_back(kSheetFile);
+    write_manifest(delivery, files, root / kManifestFile);
+    return Json::parse(read_text(root / kManifestFile));
+}
+
+}  // namespace verdigris::cli

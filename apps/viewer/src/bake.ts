@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Bakes the maps of one age into textures: a few full-screen passes, run only when the age changes.
+import * as THREE from "three";
+import { type MaterialConstants } from "./data";
+import { type Specimen } from "./specimen";
+import * as shaders from "./shaders";
+
+/** The maps that can be read back or looked at flat. */
+export type MapName = "albedo" | "normal" | "roughness" | "metallic" | "height" | "coverage";
+
+type Uniforms = Record<string, THREE.IUniform>;
+
+function pass(fragmentShader: string, uniforms: Uniforms): THREE.RawShaderMaterial {
+  return new THREE.RawShaderMaterial({
+    glslVersion: THREE.GLSL3, vertexShader: shaders.vertex, fragmentShader, uniforms,
+    depthTest: false, depthWrite: false, blending: THREE.NoBlending,
+  });
+}
+
+const triangle = new THREE.BufferGeometry().setAttribute(
+  "position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+
+export class Bake {
+  /** What a MeshStandardMaterial reads. */
+  readonly albedo: THREE.WebGLRenderTarget;
+  readonly normal: THREE.WebGLRenderTarget;
+  readonly orm: THREE.WebGLRenderTarget;
+  /** X and coverage, encoded sRGB, float. */
+  readonly frame: THREE.WebGLRenderTarget;
+  age = Number.NaN;
+
+  private readonly across: THREE.WebGLRenderTarget;
+  private readonly height: THREE.WebGLRenderTarget;
+  private readonly low: THREE.WebGLRenderTarget;
+  private readonly scene = new THREE.Scene();
+  private readonly camera = new THREE.Camera();
+  private readonly mesh = new THREE.Mesh(triangle);
+  private readonly size: THREE.Vector2;
+  private readonly law: THREE.RawShaderMaterial;
+  private readonly stack: THREE.RawShaderMaterial;
+  private readonly observed: THREE.RawShaderMaterial;
+  private readonly chain: [THREE.RawShaderMaterial, THREE.WebGLRenderTarget][];
+  private readonly albedoPass: THREE.RawShaderMaterial;
+  private readonly normalPass: THREE.RawShaderMaterial;
+  private readonly ormPass: THREE.RawShaderMaterial;
+
+  constructor(private readonly renderer: THREE.WebGLRenderer, private readonly specimen: Specimen) {
+    const { width, height } = specimen;
+    const m: MaterialConstants = specimen.document.material;
+    this.size = new THREE.Vector2(width, height);
+    const data = (type: THREE.TextureDataType) => new THREE.WebGLRenderTarget(width, height, {
+      type, format: THREE.RGBAFormat, minFilter: THREE.NearestFilter,
+      magFilter: THREE.NearestFilter, depthBuffer: false, generateMipmaps: false,
+    });
+    const map = (srgb: boolean) => {
+      const target = new THREE.WebGLRenderTarget(width, height, {
+        type: THREE.UnsignedByteType, format: THREE.RGBAFormat, depthBuffer: false,
+        minFilter: THREE.LinearMipmapLinearFilter, magFilter: THREE.LinearFilter,
+        generateMipmaps: true, colorSpace: srgb ? THREE.SRGBColorSpace : THREE.NoColorSpace,
+        anisotropy: Math.min(8, renderer.capabilities.getMaxAnisotropy()),
+      });
+      target.texture.wrapS = target.texture.wrapT = THREE.MirroredRepeatWrapping;
+      return target;
+    };
+    const float = specimen.floatTargets ? THREE.FloatType : THREE.HalfFloatType;
+    this.frame = data(float);
+    this.across = data(float);
+    this.height = data(float);
+    this.low = data(float);
+    this.albedo = map(true);
+    this.normal = map(false);
+    this.orm = map(false);
+
+    const covered: Uniforms = {
+      u_canvas: { value: specimen.canvas }, u_zone: { value: specimen.zone },
+      u_normalizer: { value: m.normalizer }, u_exponent: { value: m.coverage_exponent },
+    };
+    const trajectory = specimen.document.trajectory;
+    const reach = trajectory.kind === "law" ? trajectory.context - 1 : 0;
+    this.law = pass(shaders.lawFrame, {
+      ...covered, u_base: { value: specimen.base }, u_rate: { value: specimen.rate },
+      u_curvature: { value: specimen.curvature }, u_horizon: { value: 0 },
+      u_reach: { value: reach },
+      u_order: { value: trajectory.kind === "law" ? trajectory.order : 0 },
+      u_clamp: { value: trajectory.kind === "law" && trajectory.clamp },
+    });
+    const mix = () => ({ u_from: { value: null }, u_to: { value: null }, u_mix: { value: 0 } });
+    this.stack = pass(shaders.stackFrame, { ...covered, ...mix() });
+    this.observed = pass(shaders.observedFrame, mix());
+
+    const size = { u_size: { value: this.size } };
+    const frame = { u_frame: { value: this.frame.texture } };
+    const micro = { u_sigma: { value: m.micro_sigma } };
+    const luma = { u_sigma: { value: m.height_sigma } };
+    const step = (x: number, y: number) => ({ u_step: { value: new THREE.Vector2(x, y) } });
+    this.chain = [
+      [pass(shaders.lumaAcross, { ...frame, ...size, ...luma, u_canvas: { value: specimen.canvas } }),
+        this.across],
+      [pass(shaders.heightDown, { ...frame, ...size, ...luma,
+        u_across: { value: this.across.texture }, u_weight: { value: m.height_patina_weight } }),
+        this.height],
+      [pass(shaders.blur, { ...size, ...micro, ...step(1, 0),
+        u_source: { value: this.height.texture } }), this.across],
+      [pass(shaders.blur, { ...size, ...micro, ...step(0, 1),
+        u_source: { value: this.across.texture } }), this.low],
+    ];
+    this.albedoPass = pass(shaders.albedoMap, { ...frame, u_linear: { value: true } });
+    this.normalPass = pass(shaders.normalMap, { ...size, u_height: { value: this.height.texture },
+      u_scale: { value: m.normal_scale * m.normal_gain / 8 }, u_pack: { value: true } });
+    this.ormPass = pass(shaders.ormMap, { ...frame, u_height: { value: this.height.texture },
+      u_low: { value: this.low.texture },
+      u_rough: { value: new THREE.Vector3(m.roughness_clean, m.roughness_patina, m.roughness_gamma) },
+      u_metal: { value: new THREE.Vector3(m.metallic_clean, m.metallic_patina, m.metallic_gamma) },
+      u_micro: { value: m.micro_roughness }, u_range: { value: m.micro_range } });
+    this.mesh.frustumCulled = false;
+    this.scene.add(this.mesh);
+  }
+
+  /** Units from the last observed frame: negative is observed, positive is forecast. */
+  bake(age: number): void {
+    if (age === this.age) return;
+    this.age = age;
+    this.draw(this.framePass(age), this.frame);
+    for (const [material, target] of this.chain) this.draw(material, target);
+    this.draw(this.albedoPass, this.albedo);
+    this.draw(this.normalPass, this.normal);
+    this.draw(this.ormPass, this.orm);
+  }
+
+  /** Full-resolution floats of a map at the age last baked, row 0 on top. */
+  read(name: MapName): { width: number; height: number; channels: number; data: Float32Array } {
+    const { x: width, y: height } = this.size;
+    const target = new THREE.WebGLRenderTarget(width, height, {
+      type: THREE.FloatType, format: THREE.RGBAFormat, depthBuffer: false,
+      minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter,
+    });
+    const rgba = new Float32Array(width * height * 4);
+    const set = (material: THREE.RawShaderMaterial, key: string, value: boolean) => {
+      material.uniforms[key]!.value = value;
+    };
+    try {
+      if (name === "normal") {
+        set(this.normalPass, "u_pack", false);
+        this.draw(this.normalPass, target);
+        set(this.normalPass, "u_pack", true);
+      } else if (name === "albedo" || name === "coverage") {
+        this.renderer.readRenderTargetPixels(this.frame, 0, 0, width, height, rgba);
+      } else {
+        this.draw(this.ormPass, target);
+      }
+      if (name !== "albedo" && name !== "coverage") {
+        this.renderer.readRenderTargetPixels(target, 0, 0, width, height, rgba);
+      }
+    } finally {
+      target.dispose();
+    }
+    const first = { albedo: 0, normal: 0, roughness: 1, metallic: 2, height: 3, coverage: 3 }[name];
+    const channels = name === "albedo" || name === "normal" ? 3 : 1;
+    const out = new Float32Array(width * height * channels);
+    for (let i = 0; i < width * height; i++) {
+      for (let k = 0; k < channels; k++) out[i * channels + k] = rgba[i * 4 + first + k]!;
+    }
+    return { width, height, channels, data: out };
+  }
+
+  private framePass(age: number): THREE.RawShaderMaterial {
+    const between = age < 0 ? this.specimen.observedAt(age) : this.specimen.framesAt(age);
+    if (!between) {
+      this.law.uniforms.u_horizon!.value = Math.max(age, 0);
+      return this.law;
+    }
+    const material = age < 0 ? this.observed : this.stack;
+    material.uniforms.u_from!.value = between.from;
+    material.uniforms.u_to!.value = between.to;
+    material.uniforms.u_mix!.value = between.mix;
+    return material;
+  }
+
+  private draw(material: THREE.Material, target: THREE.WebGLRenderTarget): void {
+    this.mesh.material = material;
+    const before = this.renderer.getRenderTarget();
+    const scissor = this.renderer.getScissorTest();
+    this.renderer.setScissorTest(false);
+    this.renderer.setRenderTarget(target);
+    this.renderer.render(this.scene, this.camera);
+    this.renderer.setRenderTarget(before);
+    this.renderer.setScissorTest(scissor);
+  }
+}

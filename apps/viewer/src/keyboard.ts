@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+import { type AgeSlider } from "./age_slider";
+import { kMaps, type MapView } from "./flat";
+import { type Shape, type Stage } from "./scene";
+import { type Wipe } from "./wipe";
+
+export interface Actions {
+  slider: AgeSlider; wipe: Wipe; stage: Stage;
+  pickMap(view: MapView): void;
+  pickShape(shape: Shape): void;
+}
+
+export function listen(actions: Actions): void {
+  const canvas = document.getElementById("view")!;
+  const help = document.getElementById("help") as HTMLDialogElement;
+  const toggleHelp = () => (help.open ? help.close() : help.showModal());
+  document.getElementById("help-toggle")!.addEventListener("click", toggleHelp);
+  document.addEventListener("keydown", (e) => {
+    if (e.ctrlKey || e.metaKey || e.altKey || e.defaultPrevented) return;
+    const target = e.target as HTMLElement;
+    const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
+    if (key === "h") { toggleHelp(); return; }
+    if (help.open) return;
+    if (target === canvas && key.startsWith("Arrow")) {
+      const turn = 0.12;
+      if (key === "ArrowLeft") actions.stage.turn(-turn, 0);
+      if (key === "ArrowRight") actions.stage.turn(turn, 0);
+      if (key === "ArrowUp") actions.stage.turn(0, turn);
+      if (key === "ArrowDown") actions.stage.turn(0, -turn);
+      e.preventDefault();
+      return;
+    }
+    const { slider } = actions, step = e.shiftKey ? 5 : 0.5;
+    if (key === "ArrowLeft") slider.set(slider.age - step);
+    else if (key === "ArrowRight") slider.set(slider.age + step);
+    else if (key === "Home") slider.set(slider.range.first);
+    else if (key === "End") slider.set(slider.range.last);
+    else if (key === " " && target.tagName !== "BUTTON") slider.toggle();
+    else if (key === "w") actions.wipe.toggle();
+    else if (key === "s") actions.pickShape("sphere");
+    else if (key === "p") actions.pickShape("plane");
+    else if (key === "c") actions.pickShape("curved");
+    else if (key >= "1" && key <= "7" && key.length === 1) actions.pickMap(kMaps[Number(key) - 1]!);
+    else return;
+    e.preventDefault();
+  });
+}

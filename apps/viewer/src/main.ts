@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The page: document in, stage up, one redraw per change.
+import * as THREE from "three";
+import { AgeSlider, ageText } from "./age_slider";
+import { Bake, type MapName } from "./bake";
+import { ButtonRow } from "./buttons";
+import { readDocument, type ViewerDocument } from "./data";
+import { FlatView, kMaps, type MapView } from "./flat";
+import { listen } from "./keyboard";
+import { fillHelp, fillPanel } from "./panel";
+import { type Shape, Stage } from "./scene";
+import { Specimen } from "./specimen";
+import { Wipe } from "./wipe";
+
+interface TestApi {
+  ready: Promise<void>;
+  setAge(age: number): void;
+  readMap(name: MapName): ReturnType<Bake["read"]>;
+  readonly age: number;
+  info?: ViewerDocument;
+}
+declare global { interface Window { verdigris: TestApi } }
+
+const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+
+function fault(message: string): void {
+  const box = element("fault");
+  box.textContent = message;
+  box.hidden = false;
+}
+
+function makeRenderer(): THREE.WebGLRenderer {
+  const canvas = element<HTMLCanvasElement>("view");
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: false });
+  if (!context) {
+    throw new Error("This browser or device offers no WebGL 2, which the picture needs. " +
+      "The contact sheet and the textures beside this page need none.");
+  }
+  return new THREE.WebGLRenderer({ canvas, context, antialias: true });
+}
+
+async function start(api: TestApi): Promise<void> {
+  const doc = readDocument();
+  api.info = doc;
+  document.title = `${doc.title} \u2013 Verdigris`;
+  element("title").textContent = doc.title;
+  element("subtitle").textContent =
+    `observed for ${doc.units_observed.toFixed(0)} units, forecast to +${doc.horizons[doc.horizons.length - 1] ?? 0}`;
+  fillPanel(doc);
+  fillHelp();
+  const renderer = makeRenderer();
+  const specimen = await Specimen.load(doc, renderer);
+  const aspect = doc.width / doc.height;
+  const current = new Bake(renderer, specimen);
+  const reference = new Bake(renderer, specimen);
+  reference.bake(0);
+
+  let view: MapView = "lit", pending = 0;
+  const stageBox = element("stage");
+  const redraw = () => { if (!pending) pending = requestAnimationFrame(draw); };
+  const stage = new Stage(renderer, aspect, redraw);
+  const flat = new FlatView(renderer, aspect);
+  const wipe = new Wipe(stageBox, redraw);
+  const one = (bake: Bake, width: number, height: number) =>
+    view === "lit" ? stage.draw(bake) : flat.draw(bake, view, width / height);
+
+  function draw(): void {
+    pending = 0;
+    current.bake(slider.age);
+    const width = stageBox.clientWidth, height = stageBox.clientHeight;
+    if (width === 0 || height === 0) return;
+    if (!wipe.on) { one(current, width, height); return; }
+    const border = Math.round(width * wipe.at);
+    renderer.setScissorTest(true);
+    renderer.setScissor(0, 0, border, height);
+    one(reference, width, height);
+    renderer.setScissor(border, 0, width - border, height);
+    one(current, width, height);
+    renderer.setScissorTest(false);
+  }
+
+  const first = Math.min(specimen.firstUnit, 0);
+  const range = { first, last: specimen.lastUnit, trust: 2 * doc.context };
+  let spoken = 0;
+  const slider = new AgeSlider(doc, range, (age) => {
+    const badge = element("badge");
+    badge.textContent = age > 0.05 ? "forecast" : "observed";
+    badge.className = age > 0.05 ? (age > range.trust ? "beyond" : "forecast") : "observed";
+    wipe.label(ageText(age));
+    window.clearTimeout(spoken);
+    spoken = window.setTimeout(() => { element("live").textContent = ageText(age); }, 600);
+    redraw();
+  });
+
+  const maps = new ButtonRow("maps", kMaps, (_, i) => `Key ${i + 1}`, pickMap);
+  const shapes = new ButtonRow<Shape>("shapes", ["sphere", "plane", "curved"],
+    (n) => `Key ${n[0]!.toUpperCase()}`, pickShape);
+  function pickMap(name: MapView): void { view = name; maps.press(name); redraw(); }
+  function pickShape(name: Shape): void {
+    stage.setShape(name);
+    shapes.press(name);
+    pickMap("lit");
+  }
+  const panelButton = element("panel-toggle");
+  const showPanel = (on: boolean) => {
+    document.body.classList.toggle("panel-closed", !on);
+    panelButton.setAttribute("aria-expanded", String(on));
+  };
+  panelButton.addEventListener("click", () => showPanel(document.body.classList.contains("panel-closed")));
+  showPanel(window.innerWidth > 900);
+  listen({ slider, wipe, stage, pickMap, pickShape });
+
+  new ResizeObserver(() => {
+    const width = stageBox.clientWidth, height = stageBox.clientHeight;
+    if (width === 0 || height === 0) return;
+    renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    renderer.setSize(width, height, false);
+    stage.resize(width, height);
+    redraw();
+  }).observe(stageBox);
+
+  api.setAge = (age) => { slider.set(age); current.bake(age); };
+  api.readMap = (name) => current.read(name);
+  Object.defineProperty(api, "age", { get: () => slider.age });
+  slider.set(0);
+  await new Promise((done) => requestAnimationFrame(done));
+}
+
+const api = { age: 0, setAge: () => undefined, ready: Promise.resolve() } as unknown as TestApi;
+window.verdigris = api;
+api.ready = start(api);
+api.ready.catch((error: unknown) => fault(error instanceof Error ? error.message : String(error)));

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// The words: which forecaster and why, the guards, what a unit is, how each map is known.
+import { type ViewerDocument } from "./data";
+
+// Text goes in through textContent only: a hostile file name stays text.
+function add(parent: HTMLElement, tag: string, text = "", className = ""): HTMLElement {
+  const e = document.createElement(tag);
+  e.textContent = text;
+  if (className) e.className = className;
+  parent.append(e);
+  return e;
+}
+
+const kSymbols: Record<string, string> = { info: "i", caution: "!", refusal: "\u00d7" };
+const kWords: Record<string, string> = { info: "Note", caution: "Caution", refusal: "Refused" };
+
+export function fillPanel(doc: ViewerDocument): void {
+  const panel = document.getElementById("panel")!;
+  add(panel, "h2", "Forecast");
+  add(panel, "p", doc.forecaster.explanation);
+  add(panel, "p", `${doc.forecaster.name}, fitted on the last ${doc.context} observed units.`, "quiet");
+
+  if (doc.guards.length) add(panel, "h2", "Read this first");
+  const list = doc.guards.length ? add(panel, "ul", "", "guards") : null;
+  const weight: Record<string, number> = { refusal: 0, caution: 1, info: 2 };
+  for (const g of [...doc.guards].sort((a, b) => (weight[a.severity] ?? 2) - (weight[b.severity] ?? 2))) {
+    const item = add(list!, "li", "", g.severity);
+    add(item, "span", kSymbols[g.severity] ?? "i", "symbol").setAttribute("aria-hidden", "true");
+    const body = add(item, "p");
+    add(body, "strong", `${kWords[g.severity] ?? "Note"}. `);
+    body.append(g.sentence);
+  }
+
+  add(panel, "h2", "What a unit is");
+  add(panel, "p", `One accelerated unit is a fixed fraction of the observed recording, which spans ` +
+    `${doc.units_observed.toFixed(1)} of them. It is not calendar time: how fast a piece ages ` +
+    `elsewhere cannot be read off this page.`);
+
+  add(panel, "h2", "How each map is known");
+  const table = add(panel, "dl", "", "origins");
+  for (const o of doc.origins) {
+    const term = add(table, "dt", `${o.map} `);
+    add(term, "span", o.origin, `origin ${o.origin}`);
+    add(table, "dd", o.sentence);
+  }
+  add(panel, "p", `Verdigris ${doc.version}`, "quiet");
+}
+
+export function fillHelp(): void {
+  const dialog = document.getElementById("help") as HTMLDialogElement;
+  add(dialog, "h2", "Keyboard");
+  const list = add(dialog, "dl");
+  for (const [keys, what] of [
+    ["\u2190 \u2192", "younger, older (with Shift: by 5 units)"], ["Home End", "first observed, last forecast"],
+    ["Space", "play, pause"], ["1 \u2026 7", "lit, albedo, normal, roughness, metallic, height, coverage"],
+    ["S P C", "sphere, plane, curved sheet"], ["W", "wipe against the last observed frame"],
+    ["Arrows on the picture", "turn the shape"], ["H", "this list"], ["Esc", "close"],
+  ]) {
+    add(list, "dt", keys);
+    add(list, "dd", what);
+  }
+  const close = add(dialog, "button", "Close") as HTMLButtonElement;
+  close.type = "button";
+  close.addEventListener("click", () => dialog.close());
+}

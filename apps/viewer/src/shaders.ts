@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// Stage 3 on the GPU: the equations of docs/VIEWER_DATA.md, one pass each. Texel (x, y) is pixel
+// (x, y) of the images, row 0 on top. The same equations in C++ are verdigris/material/.
+
+const header = `
+precision highp float;
+precision highp sampler2D;
+`;
+
+export const vertex = `
+in vec3 position;
+void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }
+`;
+
+const coverage = `
+uniform sampler2D u_canvas;      // C, luma_fill
+uniform sampler2D u_zone;        // dead_zone, active
+uniform float u_normalizer, u_exponent;
+float coverage_of(vec3 x, ivec2 at) {
+  vec2 zone = texelFetch(u_zone, at, 0).rg;
+  vec3 d = abs(x - texelFetch(u_canvas, at, 0).rgb);
+  float p = clamp(((d.r + d.g + d.b) / 3.0 - zone.r) / u_normalizer, 0.0, 1.0);
+  return zone.g > 0.5 && p > 0.0 ? pow(p, u_exponent) : 0.0;
+}
+`;
+
+/** X = base + phi(h) rate + phi2(h) curvature, frozen per pixel where it would leave [0, 1]. */
+export const lawFrame = `${header}
+uniform sampler2D u_base, u_rate, u_curvature;
+uniform float u_horizon, u_reach;   // reach: n - 1
+uniform int u_order;
+uniform bool u_clamp;
+out vec4 result;
+${coverage}
+const float kNever = 1e30;
+// First h > 0 where c h^2 + b h + start leaves the side of \`bound\` that [0, 1] is on.
+float first_crossing(float start, float b, float c, float bound) {
+  float outward = bound > 0.5 ? 1.0 : -1.0;
+  float d = start - bound;
+  if (d == 0.0) {
+    if (b * outward > 0.0 || (b == 0.0 && c * outward > 0.0)) return 0.0;
+    float other = c == 0.0 ? kNever : -b / c;
+    return other > 0.0 ? other : kNever;
+  }
+  if (c == 0.0) {
+    float h = b == 0.0 ? kNever : -d / b;
+    return h > 0.0 ? h : kNever;
+  }
+  float disc = b * b - 4.0 * c * d;
+  if (disc < 0.0) return kNever;
+  float q = -0.5 * (b + (b < 0.0 ? -1.0 : 1.0) * sqrt(disc));
+  float h1 = q / c, h2 = q == 0.0 ? kNever : d / q;
+  float h = kNever;
+  if (h1 > 0.0) h = h1;
+  if (h2 > 0.0) h = min(h, h2);
+  return h;
+}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec3 base = texelFetch(u_base, at, 0).rgb;
+  vec3 x = base;
+  if (u_order > 0) {
+    vec3 rate = texelFetch(u_rate, at, 0).rgb;
+    vec3 curve = u_order > 1 ? texelFetch(u_curvature, at, 0).rgb : vec3(0.0);
+    vec3 slope = rate + 2.0 * u_reach * curve;
+    float h = u_horizon;
+    if (u_clamp) {
+      for (int k = 0; k < 3; k++) {
+        h = min(h, first_crossing(base[k], slope[k], curve[k], 0.0));
+        h = min(h, first_crossing(base[k], slope[k], curve[k], 1.0));
+      }
+    }
+    x = base + h * slope + h * h * curve;
+  }
+  result = vec4(x, coverage_of(x, at));
+}
+`;
+
+/** A network's frames: linear between two of them. */
+export const stackFrame = `${header}
+uniform sampler2D u_from, u_to;
+uniform float u_mix;
+out vec4 result;
+${coverage}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec3 x = mix(texelFetch(u_from, at, 0).rgb, texelFetch(u_to, at, 0).rgb, u_mix);
+  result = vec4(x, coverage_of(x, at));
+}
+`;
+
+/** Observed frames crossfade; the observed state is the clean state by definition: p = 0. */
+export const observedFrame = `${header}
+uniform sampler2D u_from, u_to;
+uniform float u_mix;
+out vec4 result;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  result = vec4(mix(texelFetch(u_from, at, 0).rgb, texelFetch(u_to, at, 0).rgb, u_mix), 0.0);
+}
+`;
+
+const gaussian = `
+uniform ivec2 u_size;
+uniform float u_sigma;
+ivec2 inside(ivec2 at) { return clamp(at, ivec2(0), u_size - 1); }
+float weight_at(int i) { float t = float(i) / u_sigma; return exp(-0.5 * t * t); }
+`;
+
+/** Horizontal Gaussian of the luma (glints filled). */
+export const lumaAcross = `${header}
+uniform sampler2D u_frame, u_canvas;
+out vec4 result;
+${gaussian}
+float luma_of(ivec2 at) {
+  float fill = texelFetch(u_canvas, at, 0).a;
+  return fill >= 0.0 ? fill : dot(texelFetch(u_frame, at, 0).rgb, vec3(0.2126, 0.7152, 0.0722));
+}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int radius = int(ceil(3.0 * u_sigma));
+  float sum = 0.0, weights = 0.0;
+  for (int i = -radius; i <= radius; i++) {
+    float w = weight_at(i);
+    sum += w * luma_of(inside(at + ivec2(i, 0)));
+    weights += w;
+  }
+  result = vec4(sum / weights, 0.0, 0.0, 1.0);
+}
+`;
+
+/** Vertical Gaussian, then the height: luma blended with the coverage. */
+export const heightDown = `${header}
+uniform sampler2D u_across, u_frame;
+uniform float u_weight;
+out vec4 result;
+${gaussian}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int radius = int(ceil(3.0 * u_sigma));
+  float sum = 0.0, weights = 0.0;
+  for (int i = -radius; i <= radius; i++) {
+    float w = weight_at(i);
+    sum += w * texelFetch(u_across, inside(at + ivec2(0, i)), 0).r;
+    weights += w;
+  }
+  float p = texelFetch(u_frame, at, 0).a;
+  float h = clamp((1.0 - u_weight) * sum / weights + u_weight * p, 0.0, 1.0);
+  result = vec4(h, 0.0, 0.0, 1.0);
+}
+`;
+
+/** One direction of the low-pass behind the micro-roughness. */
+export const blur = `${header}
+uniform sampler2D u_source;
+uniform ivec2 u_step;
+out vec4 result;
+${gaussian}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  int radius = int(ceil(3.0 * u_sigma));
+  float sum = 0.0, weights = 0.0;
+  for (int i = -radius; i <= radius; i++) {
+    float w = weight_at(i);
+    sum += w * texelFetch(u_source, inside(at + i * u_step), 0).r;
+    weights += w;
+  }
+  result = vec4(sum / weights, 0.0, 0.0, 1.0);
+}
+`;
+
+/** Occlusion (none), roughness, metallic, height. */
+export const ormMap = `${header}
+uniform sampler2D u_frame, u_height, u_low;
+uniform vec3 u_rough, u_metal;    // clean, patina, gamma
+uniform float u_micro, u_range;
+out vec4 result;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  float p = texelFetch(u_frame, at, 0).a;
+  float h = texelFetch(u_height, at, 0).r;
+  float micro = clamp((h - texelFetch(u_low, at, 0).r) / u_range, -1.0, 1.0) * u_micro;
+  float grown = p > 0.0 ? pow(p, u_rough.z) : 0.0;
+  float bare = p < 1.0 ? pow(1.0 - p, u_metal.z) : 0.0;
+  float rough = clamp(u_rough.x + (u_rough.y - u_rough.x) * grown + micro, 0.04, 1.0);
+  float metal = u_metal.y + (u_metal.x - u_metal.y) * bare;
+  result = vec4(1.0, rough, metal, h);
+}
+`;
+
+/** Tangent-space normal, +Y up; as unit vector or packed into [0, 1]. */
+export const normalMap = `${header}
+uniform sampler2D u_height;
+uniform ivec2 u_size;
+uniform float u_scale;
+uniform bool u_pack;
+out vec4 result;
+float h(ivec2 at) { return texelFetch(u_height, clamp(at, ivec2(0), u_size - 1), 0).r; }
+void main() {
+  ivec2 p = ivec2(gl_FragCoord.xy);
+  float a = h(p + ivec2(-1, -1)), b = h(p + ivec2(0, -1)), c = h(p + ivec2(1, -1));
+  float d = h(p + ivec2(-1, 0)), f = h(p + ivec2(1, 0));
+  float g = h(p + ivec2(-1, 1)), i = h(p + ivec2(0, 1)), j = h(p + ivec2(1, 1));
+  float dx = (c + 2.0 * f + j) - (a + 2.0 * d + g);
+  float dy = (g + 2.0 * i + j) - (a + 2.0 * b + c);
+  vec3 n = normalize(vec3(-u_scale * dx, u_scale * dy, 1.0));
+  result = vec4(u_pack ? n * 0.5 + 0.5 : n, 1.0);
+}
+`;
+
+/** The frame as albedo: linear for an sRGB target (the GPU encodes), or encoded as it is. */
+export const albedoMap = `${header}
+uniform sampler2D u_frame;
+uniform bool u_linear;
+out vec4 result;
+void main() {
+  vec3 v = texelFetch(u_frame, ivec2(gl_FragCoord.xy), 0).rgb;
+  if (u_linear) {
+    v = clamp(v, 0.0, 1.0);
+    v = mix(v / 12.92, pow((v + 0.055) / 1.055, vec3(2.4)), step(0.04045, v));
+  }
+  result = vec4(v, 1.0);
+}
+`;
+
+/** Shows one map flat, letterboxed by the quad it is drawn on. Output is display-ready. */
+export const flatVertex = `
+in vec3 position;
+in vec2 uv;
+uniform vec2 u_fit;
+out vec2 v_uv;
+void main() { v_uv = vec2(uv.x, 1.0 - uv.y); gl_Position = vec4(position.xy * u_fit, 0.0, 1.0); }
+`;
+export const flatFragment = `${header}
+uniform sampler2D u_frame, u_orm, u_normal;
+uniform int u_map;
+in vec2 v_uv;
+out vec4 result;
+vec3 heat(float t) {   // dark to bright, readable in gray: coverage is no color of the metal
+  return clamp(vec3(1.5 * t, 1.6 * t * t, 0.35 + 0.9 * t - 1.25 * t * t + t * t * t * 0.6), 0.0, 1.0);
+}
+void main() {
+  ivec2 at = ivec2(v_uv * vec2(textureSize(u_frame, 0)));
+  vec4 frame = texelFetch(u_frame, at, 0);
+  vec4 orm = texture(u_orm, v_uv);
+  vec3 v = frame.rgb;
+  if (u_map == 2) v = texture(u_normal, v_uv).rgb;
+  if (u_map == 3) v = vec3(orm.g);
+  if (u_map == 4) v = vec3(orm.b);
+  if (u_map == 5) v = vec3(orm.a);
+  if (u_map == 6) v = heat(frame.a);
+  result = vec4(clamp(v, 0.0, 1.0), 1.0);
+}
+`;

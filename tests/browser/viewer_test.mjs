@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// The viewer in a real browser, on made documents:  node viewer_test.mjs TEMPLATE [SCREENSHOT_DIR]
+import assert from "node:assert/strict";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { executable, openPage, readMap, withBrowser } from "./browser.mjs";
+import { makeDocument, reference } from "./synthetic.mjs";
+
+if (!executable) {
+  console.log("skipped: no Chromium found (set VERDIGRIS_CHROMIUM)");
+  process.exit(77);
+}
+const template = await readFile(process.argv[2], "utf8");
+const shots = process.argv[3];
+const folder = await mkdtemp(path.join(tmpdir(), "verdigris-viewer-"));
+let failures = 0;
+
+async function page_of(doc, name) {
+  const file = path.join(folder, `${name}.html`);
+  const json = JSON.stringify(doc).replaceAll("<", "\\u003c");
+  await writeFile(file, template.replace("@@VERDIGRIS_DATA@@", () => json));
+  return file;
+}
+async function test(name, work) {
+  try {
+    await work();
+    console.log(`ok    ${name}`);
+  } catch (error) {
+    failures++;
+    console.log(`FAIL  ${name}\n      ${error.message}`);
+  }
+}
+
+await withBrowser(async (context) => {
+  const open = async (options, name) => {
+    const made = makeDocument(options);
+    return { made, ...(await openPage(context, await page_of(made.doc, name))) };
+  };
+
+  const cases = [["linear", { order: 1 }], ["linear unclamped", { order: 1, clamp: false }],
+    ["accelerating", { order: 2 }], ["held", { order: 0 }], ["tall", { order: 1, width: 12, height: 51 }],
+    ["stack of frames", { kind: "frames" }]];
+  for (const [name, options] of cases) {
+    await test(`maps agree with the equations: ${name}`, async () => {
+      const { page, made, complaints, requests } = await open(options, name.replaceAll(" ", "_"));
+      assert.deepEqual(complaints, []);
+      assert.deepEqual(requests, []);
+      assert.equal(await page.locator("#fault").isVisible(), false);
+      for (const age of [0, 0.7, 5, 12.3, 20]) {
+        const truth = reference(made, age);
+        for (const map of ["albedo", "coverage", "height", "roughness", "metallic", "normal"]) {
+          const got = await readMap(page, age, map);
+          assert.equal(got.width, made.doc.width);
+          assert.equal(got.data.length, truth[map].length);
+          const worst = got.data.reduce((w, v, i) => Math.max(w, Math.abs(v - truth[map][i])), 0);
+          assert.ok(worst < 1e-3, `${map} at +${age}: off by ${worst}`);
+          if (map === "coverage" && age === 20 && options.order !== 0) {
+            assert.ok(Math.max(...got.data) > 0.2, "the made case covers nothing: it tests nothing");
+          }
+          if (map === "coverage" && age === 0) assert.equal(Math.max(...got.data), 0);
+        }
+      }
+      await page.close();
+    });
+  }
+
+  await test("observed ages crossfade and carry no coverage", async () => {
+    const { page, made } = await open({}, "observed");
+    const half = await readMap(page, -4, "albedo");
+    const expected = made.truth.base.map((v, i) => v - 4 * made.truth.rate[i]);
+    const worst = half.data.reduce((w, v, i) => Math.max(w, Math.abs(v - expected[i])), 0);
+    assert.ok(worst < 3 / 255, `off by ${worst}`);
+    assert.equal(Math.max(...(await readMap(page, -4, "coverage")).data), 0);
+    await page.close();
+  });
+
+  await test("the slider changes the picture, by mouse, keyboard and ticks", async () => {
+    const { page, complaints } = await open({ width: 64, height: 48 }, "slider");
+    const canvas = page.locator("#view");
+    const slider = page.getByRole("slider", { name: "Age in accelerated units" });
+    const before = await canvas.screenshot();
+    assert.match(await slider.getAttribute("aria-valuetext"), /last observed frame/);
+    await slider.focus();
+    await page.keyboard.press("End");
+    assert.match(await slider.getAttribute("aria-valuetext"), /forecast, \+20\.0 accelerated units/);
+    await page.waitForTimeout(300);
+    assert.ok(!before.equals(await canvas.screenshot()), "the picture did not change");
+    await page.getByRole("button", { name: "Go to the forecast at +10 units" }).click();
+    assert.match(await page.locator("#readout").textContent(), /\+10\.0/);
+    await page.keyboard.press("Home");
+    assert.match(await slider.getAttribute("aria-valuetext"), /observed, 8\.0 units before/);
+    await page.keyboard.press("ArrowRight");
+    assert.match(await slider.getAttribute("aria-valuetext"), /7\.[0-9] units before/);
+    assert.doesNotMatch(await page.locator("body").innerText(), /\b(years?|months?|days?)\b/i);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  await test("play moves the age and pauses", async () => {
+    const { page } = await open({}, "play");
+    const age = () => page.evaluate(() => window.verdigris.age);
+    await page.getByRole("button", { name: "Play" }).click();
+    await page.waitForFunction(() => window.verdigris.age > 0.5, null, { timeout: 8000 });
+    await page.getByRole("button", { name: "Pause" }).click();
+    const stopped = await age();
+    await page.waitForTimeout(400);
+    assert.equal(await age(), stopped);
+    await page.close();
+  });
+
+  await test("shapes, maps and wipe each change the picture and say so", async () => {
+    const { page, complaints } = await open({ width: 64, height: 48 }, "tools");
+    const canvas = page.locator("#stage");
+    await page.evaluate(() => window.verdigris.setAge(15));
+    const seen = [];
+    const look = async (what) => {
+      await page.waitForTimeout(250);
+      const shot = await canvas.screenshot();
+      assert.ok(!seen.some((s) => s.equals(shot)), `${what} shows nothing new`);
+      seen.push(shot);
+    };
+    await look("sphere");
+    for (const shape of ["Plane", "Curved"]) {
+      await page.getByRole("button", { name: shape, exact: true }).click();
+      await look(shape);
+    }
+    for (const map of ["Albedo", "Normal", "Roughness", "Metallic", "Height", "Coverage"]) {
+      const button = page.getByRole("button", { name: map, exact: true });
+      await button.click();
+      assert.equal(await button.getAttribute("aria-pressed"), "true");
+      await look(map);
+    }
+    await page.keyboard.press("1");
+    await page.keyboard.press("w");
+    assert.equal(await page.locator("#wipe-toggle").getAttribute("aria-pressed"), "true");
+    await look("wipe");
+    const border = page.getByRole("slider", { name: /Comparison border/ });
+    const at = await border.getAttribute("aria-valuenow");
+    await border.focus();
+    await page.keyboard.press("ArrowRight");
+    assert.notEqual(await border.getAttribute("aria-valuenow"), at);
+    await look("moved wipe");
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  await test("everything can be reached by Tab and has a name", async () => {
+    const { page } = await open({}, "tab");
+    const focusable = await page.locator("button:visible, input:visible, [tabindex='0']:visible").count();
+    const names = new Set();
+    await page.locator("body").click({ position: { x: 5, y: 5 } });
+    for (let i = 0; i < focusable + 5; i++) {
+      await page.keyboard.press("Tab");
+      names.add(await page.evaluate(() => {
+        const e = document.activeElement;
+        return e === document.body ? "" : `${e.tagName} ${e.getAttribute("aria-label") ?? e.textContent}`;
+      }));
+    }
+    names.delete("");
+    assert.ok(names.size >= focusable - 1, `reached ${names.size} of ${focusable}: ${[...names].join("; ")}`);
+    for (const name of names) assert.match(name, /\S+ \S/, `no name: ${name}`);
+    await page.close();
+  });
+
+  await test("text from outside stays text", async () => {
+    const title = `</script><img src=x onerror="window.hacked=1"><b>bold</b>`;
+    const { page, complaints } = await open({ title }, "hostile");
+    assert.equal(await page.locator("#title").textContent(), title);
+    assert.equal(await page.evaluate(() => window.hacked), undefined);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  await test("damaged data and missing WebGL get a sentence", async () => {
+    const { doc } = makeDocument({});
+    const damaged = structuredClone(doc);
+    damaged.trajectory.rate.data = damaged.canvas.data.slice(0, 40);
+    for (const [bad, pattern] of [[damaged, /./], [{ format: "other" }, /another viewer/]]) {
+      const { page } = await openPage(context, await page_of(bad, "bad"));
+      await page.locator("#fault").waitFor({ state: "visible", timeout: 5000 });
+      assert.match(await page.locator("#fault").textContent(), pattern);
+      await page.close();
+    }
+    const page = await context.newPage();
+    await page.addInitScript(() => { HTMLCanvasElement.prototype.getContext = () => null; });
+    await page.goto(`file://${await page_of(doc, "nogl")}`);
+    await page.locator("#fault").waitFor({ state: "visible", timeout: 5000 });
+    assert.match(await page.locator("#fault").textContent(), /WebGL 2/);
+    await page.close();
+  });
+
+  await test("a phone shows it all", async () => {
+    const { page } = await open({}, "phone");
+    await page.setViewportSize({ width: 390, height: 844 });
+    await page.waitForTimeout(300);
+    const overflow = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    assert.ok(overflow <= 0, `${overflow} pixels wider than the screen`);
+    for (const id of ["#slider", "#play", "#view"]) assert.ok(await page.locator(id).isVisible());
+    assert.ok((await page.locator("#stage").boundingBox()).height > 250);
+    if (shots) await page.screenshot({ path: path.join(shots, "phone.png") });
+    await page.close();
+  });
+});
+await rm(folder, { recursive: true, force: true });
+if (failures) { console.log(`${failures} failures`); process.exit(1); }

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Stage by stage gives the same files as `age`; each stage says what it needs.
+source "$(dirname "$0")/lib.sh"
+"$fixture" plate "$scratch/plate" 24 64
+"$verdigris" age "$scratch/plate" -o "$scratch/age" --quiet
+
+expect 3 "run .verdigris observe" "$verdigris" forecast "$scratch/plate"
+expect 3 "no such result folder" "$verdigris" forecast "$scratch/nowhere"
+"$verdigris" observe "$scratch/plate" -o "$scratch/steps" --quiet
+expect 3 "run .verdigris forecast" "$verdigris" materialize "$scratch/steps"
+"$verdigris" forecast "$scratch/steps" --quiet
+expect 3 "run .verdigris materialize" "$verdigris" deliver "$scratch/steps"
+"$verdigris" materialize "$scratch/steps" --quiet
+"$verdigris" deliver "$scratch/steps" --quiet
+expect_results "$scratch/steps"
+(cd "$scratch/age" && find . -type f -exec sha256sum {} + | sort -k2) >"$scratch/age.sums"
+(cd "$scratch/steps" && find . -type f -exec sha256sum {} + | sort -k2) >"$scratch/steps.sums"
+diff "$scratch/age.sums" "$scratch/steps.sums" >&2 || fail "the stages and age differ"
+
+"$verdigris" inspect "$scratch/plate" >"$scratch/out"
+for word in frames times color exposure clipped verdict; do
+  grep -q "^$word" "$scratch/out" || fail "inspect says nothing about $word"
+done
+"$verdigris" inspect "$scratch/plate" --json | grep -q '"verdict"' || fail "inspect --json"
+"$verdigris" doctor | grep -q "processor" || fail "doctor"
+"$verdigris" doctor --json | grep -q '"simd"' || fail "doctor --json"
+if [ -e "$scratch/age/viewer.html" ]; then
+  "$verdigris" view "$scratch/age" --print | grep -q viewer.html || fail "view --print"
+fi
+# Guards.
+"$verdigris" age "$scratch/plate" -o "$scratch/long" --horizons 5,200 --quiet --json | grep -q long_horizon ||
+  fail "a horizon far beyond the context is not flagged"
+expect 4 "force" "$verdigris" age "$scratch/plate" -o "$scratch/few" --context 3
+"$verdigris" age "$scratch/plate" -o "$scratch/few" --context 3 --force --quiet || fail "--force"
+expect_results "$scratch/few"
+finish

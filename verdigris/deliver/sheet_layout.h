@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Where everything stands on a contact sheet. Pure arithmetic, so that "nothing overlaps" is a
+// test.
+#pragma once
+
+#include <vector>
+
+#include "verdigris/deliver/resample.h"
+#include "verdigris/pixels/image.h"
+
+namespace verdigris {
+
+/// chosen: 256 px tiles show the texture of a specimen and keep a sheet of ten columns below
+/// 3000 px.
+inline constexpr int kTileSide = 256;
+
+struct SheetContent {
+    PictureSize picture;  ///< size of one frame
+    int observed = 0, forecast = 0, maps = 0;
+};
+
+/// All in pixels of the sheet. Text lines are given by their baselines.
+struct SheetLayout {
+    PictureSize tile;
+    int width = 0;  ///< of the sheet
+    int margin = 0;
+    int title_y = 0, facts_y = 0, axis_y = 0, rule_y = 0;
+    int frames_heading_y = 0, change_heading_y = 0, maps_heading_y = 0;
+    std::vector<Rect> observed, forecast;  ///< tiles of row 1
+    std::vector<Rect> change;              ///< row 2, each under its forecast frame
+    std::vector<Rect> maps;                ///< row 3
+    int column_width = 0;                  ///< for labels: at least as wide as a tile
+    int divider_x = 0, divider_top = 0, divider_bottom = 0;
+    Rect legend;          ///< of the change maps, left of them
+    Rect chart;           ///< right of the legend; empty if there is no room
+    Rect notes;           ///< height 0: as long as the text needs
+    int maps_bottom = 0;  ///< below the labels of row 3
+};
+
+/// The tile of a picture: its long side is kTileSide.
+PictureSize tile_extent(PictureSize picture);
+SheetLayout lay_out(const SheetContent& content);
+
+/// At most `limit` indices out of `count`, evenly spread, the first and the last among them.
+std::vector<int> evenly(int count, int limit);
+
+}  // namespace verdigris

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/deliver/status_json.h"
+
+#include "verdigris/material/material.h"
+
+namespace verdigris {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* severity_text(Severity severity) {
+    switch (severity) {
+        case Severity::info:
+            return "info";
+        case Severity::caution:
+            return "caution";
+        case Severity::refusal:
+            return "refusal";
+    }
+    return "info";
+}
+
+}  // namespace
+
+Json guards_json(const Statuses& guards) {
+    Json list = Json::array();
+    for (const Status& guard : guards) {
+        list.push_back({{"id", guard.id},
+                        {"severity", severity_text(guard.severity)},
+                        {"sentence", guard.sentence}});
+    }
+    return list;
+}
+
+Json origins_json(const Forecast& forecast) {
+    Json list = Json::array();
+    for (const MapOrigin& origin : map_origins(forecast)) {
+        list.push_back({{"map", origin.map},
+                        {"origin", to_string(origin.origin)},
+                        {"sentence", origin.sentence}});
+    }
+    return list;
+}
+
+}  // namespace verdigris

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+// Format: docs/VIEWER_DATA.md.
+#include "verdigris/deliver/viewer.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "verdigris/color/convert.h"
+#include "verdigris/deliver/blob.h"
+#include "verdigris/deliver/json_text.h"
+#include "verdigris/deliver/source_type.h"
+#include "verdigris/deliver/status_json.h"
+#include "verdigris/deliver/viewer_recipe.h"
+#include "verdigris/pixels/parallel_rows.h"
+
+namespace verdigris {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// luma_fill tells clipped pixels by its sign, so 0 and -1 must return exactly: steps of a power of
+// two from -1, which put 0 at 2^15.
+constexpr Quantization kFillSteps{1.0 / 32768, -1};
+
+// chosen: smaller pages matter more here than the time to write one.
+constexpr int kPngLevel = 6;
+
+Json blob_json(const Blob& blob) {
+    return {{"channels", blob.channels},
+            {"scale", blob.quantization.scale},
+            {"offset", blob.quantization.offset},
+            {"data", blob.data}};
+}
+
+// Everything heavy in the document, made in parallel; each fills its own slot.
+class Slots {
+  public:
+    Json* add(std::function<Json()> make) {
+        jobs_.push_back({std::make_unique<Json>(), std::move(make)});
+        return jobs_.back().slot.get();
+    }
+    void run(const Progress& progress) {
+        std::mutex reporting;
+        std::int64_t done = 0;
+        const auto total = std::int64_t(jobs_.size());
+        parallel_for(int(jobs_.size()), [&](int i) {
+            Job& job = jobs_[std::size_t(i)];
+            *job.slot = job.make();
+            const std::scoped_lock lock(reporting);
+            report(progress, "deliver", ++done, total);
+        });
+    }
+
+  private:
+    struct Job {
+        std::unique_ptr<Json> slot;
+        std::function<Json()> make;
+    };
+    std::vector<Job> jobs_;
+};
+
+// A blob of an image at the viewer's size; an absent image is zero everywhere.
+std::function<Json()> color_blob(const Image<SrgbF>& image, PictureSize extent) {
+    return [&image, extent] {
+        if (image.empty()) {
+            return blob_json(encode_blob(Image<SrgbF>(extent.width, extent.height).view()));
+        }
+        return blob_json(encode_blob(resampled(image, extent).view()));
+    };
+}
+
+std::string picture_uri(const Image<SrgbF>& image, PictureSize extent) {
+    const Image<SrgbF> small = resampled(image, extent);
+    Image<SrgbU8> codes = Image<SrgbU8>::for_overwrite(extent.width, extent.height);
+    std::transform(small.pixels().begin(), small.pixels().end(), codes.pixels().begin(),
+                   [](SrgbF c) { return u8_from_srgb(c); });
+    return "data:image/png;base64," +
+           base64(encode_png(codes.view(), png_options(SourceType::capture, kPngLevel)));
+}
+
+Json law_json(const Trajectory& trajectory, PictureSize extent, Slots& slots,
+              std::vector<std::pair<std::string, Json*>>& pending) {
+    pending = {{"base", slots.add(color_blob(trajectory.base, extent))},
+               {"rate", slots.add(color_blob(trajectory.rate, extent))}};
+    if (trajectory.law.order == 2) {
+        pending.push_back({"curvature", slots.add(color_blob(trajectory.curvature, extent))});
+    }
+    return {{"kind", "law"},
+            {"order", trajectory.law.order},
+            {"context", trajectory.law.context},
+            {"clamp", trajectory.clamp},
+            {"base", nullptr},
+            {"rate", nullptr},
+            {"curvature", nullptr}};
+}
+
+Json scalars_json(const MaterialOptions& o, const MaterialRecipe& recipe) {
+    return {{"coverage_exponent", o.coverage_exponent},
+            {"roughness_clean", o.roughness_clean},
+            {"roughness_patina", o.roughness_patina},
+            {"roughness_gamma", o.roughness_gamma},
+            {"micro_roughness", o.micro_roughness},
+            {"metallic_patina", o.metallic_patina},
+            {"metallic_clean", o.metallic_clean},
+            {"metallic_gamma", o.metallic_gamma},
+            {"height_patina_weight", o.height_patina_weight},
+            {"height_sigma", o.height_sigma},
+            {"micro_sigma", o.micro_sigma},
+            {"normal_scale", o.normal_scale},
+            {"normal_gain", o.normal_gain},
+            {"micro_range", o.micro_range},
+            {"tau", recipe.tau},
+            {"normalizer", recipe.normalizer},
+            {"reference_horizon", recipe.reference_horizon}};
+}
+
+Json people_json(const Delivery& delivery, PictureSize extent) {
+    return {{"format", "verdigris-viewer/1"},
+            {"title", delivery.title},
+            {"version", writer_version()},
+            {"width", extent.width},
+            {"height", extent.height},
+            {"context", delivery.forecast->context_length},
+            {"units_observed", delivery.units_observed},
+            {"horizons", delivery.horizons},
+            {"forecaster",
+             {{"name", delivery.forecast->forecaster},
+              {"explanation", delivery.forecast->explanation}}},
+            {"guards", guards_json(delivery.guards)},
+            {"origins", origins_json(*delivery.forecast)}};
+}
+
+// "<" appears only inside JSON strings, where \u003c means the same and ends no element.
+std::string without_markup(const std::string& text) {
+    std::string safe;
+    safe.reserve(text.size());
+    for (char c : text) {
+        if (c == '<') {
+            safe += "\\u003c";
+        } else {
+            safe += c;
+        }
+    }
+    return safe;
+}
+
+}  // namespace
+
+std::string viewer_json(const Delivery& delivery, const Progress& progress) {
+    delivered_states(delivery);  // throws if the delivery is not complete
+    const Forecast& forecast = *delivery.forecast;
+    const MaterialRecipe& recipe = *delivery.recipe;
+    const PictureSize extent = fitted({recipe.canvas.width(), recipe.canvas.height()}, kViewerSide);
+
+    Json document = people_json(delivery, extent);
+    Slots slots;
+    std::vector<std::pair<std::string, Json*>> law;
+    std::vector<Json*> frames;
+    Json* stack_base = nullptr;
+    if (forecast.is_trajectory()) {
+        document["trajectory"] = law_json(forecast.trajectory, extent, slots, law);
+    } else {
+        document["trajectory"] = {{"kind", "frames"},
+                                  {"base", nullptr},
+                                  {"horizons", forecast.stack.horizons},
+                                  {"frames", Json::array()}};
+        stack_base = slots.add(color_blob(forecast.stack.base, extent));
+        for (const Image<SrgbF>& frame : forecast.stack.frames) {
+            frames.push_back(slots.add(color_blob(frame, extent)));
+        }
+    }
+    std::vector<Json*> pictures;
+    for (const ObservedFrame& frame : delivery.observed) {
+        pictures.push_back(slots.add([&frame, extent]() -> Json {
+            return {{"unit", frame.unit}, {"image", picture_uri(frame.image, extent)}};
+        }));
+    }
+    const ViewerRecipe small = viewer_recipe(recipe, extent);
+    Json* canvas = slots.add([&] { return blob_json(encode_blob(small.canvas.view())); });
+    Json* dead_zone = slots.add([&] { return blob_json(encode_blob(small.dead_zone.view())); });
+    Json* active = slots.add([&] { return blob_json(encode_blob(small.active.view())); });
+    Json* fill =
+        slots.add([&] { return blob_json(encode_blob(small.luma_fill.view(), kFillSteps)); });
+    slots.run(progress);
+
+    for (auto& [key, slot] : law) document["trajectory"][key] = std::move(*slot);
+    if (stack_base) document["trajectory"]["base"] = std::move(*stack_base);
+    for (Json* frame : frames) document["trajectory"]["frames"].push_back(std::move(*frame));
+    document["observed"] = Json::array();
+    for (Json* picture : pictures) document["observed"].push_back(std::move(*picture));
+    document["material"] = scalars_json(small.options, recipe);
+    document["canvas"] = std::move(*canvas);
+    document["dead_zone"] = std::move(*dead_zone);
+    document["active"] = std::move(*active);
+    document["luma_fill"] = std::move(*fill);
+    return without_markup(json_text(document));
+}
+
+}  // namespace verdigris

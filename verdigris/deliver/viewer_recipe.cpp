@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/deliver/viewer_recipe.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace verdigris {
+namespace {
+
+// chosen: a coarse pixel is what at least half of its area is.
+constexpr float kMajority = 0.5f;
+
+Image<float> active_share(const MaterialRecipe& recipe) {
+    Image<float> share(recipe.canvas.width(), recipe.canvas.height());
+    const bool all = recipe.active.empty();
+    for (std::size_t i = 0; i < share.pixel_count(); ++i) {
+        share.pixels()[i] = all || recipe.active.pixels()[i] != 0 ? 1.0f : 0.0f;
+    }
+    return share;
+}
+
+}  // namespace
+
+ViewerRecipe viewer_recipe(const MaterialRecipe& recipe, PictureSize extent) {
+    const Image<SrgbF>& canvas = recipe.canvas;
+    const double factor = double(std::max(canvas.width(), canvas.height())) /
+                          double(std::max({extent.width, extent.height, 1}));
+    ViewerRecipe result;
+    result.options = recipe.options;
+    result.options.height_sigma /= factor;
+    result.options.micro_sigma /= factor;
+    result.options.normal_gain /= factor;
+    result.canvas = resampled(canvas, extent);
+    result.dead_zone = resampled(recipe.dead_zone, extent);
+    result.active = resampled(active_share(recipe), extent);
+    for (float& v : result.active.pixels()) v = v >= kMajority ? 1.0f : 0.0f;
+
+    // Weighted: the average of fills over filled pixels is average(fill * w) / average(w).
+    Image<float> weight(canvas.width(), canvas.height()), fill(canvas.width(), canvas.height());
+    for (std::size_t i = 0; i < recipe.luma_fill.pixel_count(); ++i) {
+        const float value = recipe.luma_fill.pixels()[i];
+        weight.pixels()[i] = value >= 0 ? 1.0f : 0.0f;
+        fill.pixels()[i] = std::max(value, 0.0f);
+    }
+    const Image<float> share = resampled(weight, extent);
+    result.luma_fill = resampled(fill, extent);
+    for (std::size_t i = 0; i < share.pixel_count(); ++i) {
+        float& v = result.luma_fill.pixels()[i];
+        v = share.pixels()[i] >= kMajority ? v / share.pixels()[i] : -1.0f;
+    }
+    return result;
+}
+
+}  // namespace verdigris

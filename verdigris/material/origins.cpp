@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/material/material.h"
+
+namespace verdigris {
+
+std::string to_string(Origin origin) {
+    switch (origin) {
+        case Origin::measured:
+            return "measured";
+        case Origin::modeled:
+            return "modeled";
+        case Origin::assumed:
+            return "assumed";
+    }
+    return "unknown";
+}
+
+std::vector<MapOrigin> map_origins(const Forecast& forecast) {
+    const bool law = forecast.is_trajectory();
+    const bool held = law && forecast.trajectory.law.order == 0;
+    const std::string frame =
+        held
+            ? "The last observed frame itself, held still"
+            : "The forecast frame itself: the last observed frame, moved on by " +
+                  (forecast.forecaster.empty() ? std::string("the forecast") : forecast.forecaster);
+    const std::string light =
+        "; the light, the shadows and the glints of the recording are still in it.";
+    return {
+        {"albedo", held ? Origin::measured : Origin::modeled, frame + light},
+        {"normal", Origin::modeled,
+         "Slopes of the height map: dark and light texture read as low and high. One camera and "
+         "one light cannot tell paint from relief, so the direction is plausible and the depth is "
+         "a choice."},
+        {"roughness", Origin::modeled,
+         "Between a polished and a fully patinated value, by how far the color has moved from the "
+         "observed state. That oxide is rougher than polished metal is physics; the two values "
+         "and the curve between them were set by eye."},
+        {"metallic", Origin::modeled,
+         "From metal to oxide by the same change of color. That the clean surface conducts and "
+         "the patina does not is a fact of the materials; that the observed state counts as clean "
+         "is an assumption."},
+        {"height", Origin::modeled,
+         "Smoothed brightness, raised where patina is forecast, on a scale from 0 to 1 without "
+         "units. No depth was measured."},
+    };
+}
+
+}  // namespace verdigris
