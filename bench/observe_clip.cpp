@@ -17,7 +17,8 @@
 int main(int argc, char** argv) try {
     using namespace verdigris;
     if (argc < 2) {
-        std::fprintf(stderr, "usage: observe_clip FILE [none|automatic] [every] [size N] [to DIR]\n");
+        std::fprintf(stderr,
+                     "usage: observe_clip FILE [none|automatic] [every] [size N] [to DIR]\n");
         return 2;
     }
     ObserveOptions options;
@@ -38,14 +39,15 @@ int main(int argc, char** argv) try {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    std::printf("{\"frames\": %d, \"seconds\": %.3f, \"fps\": %.1f, \"cpu_seconds\": %.2f, "
-                "\"peak_mb\": %.0f, \"samples\": %d, \"width\": %d, \"height\": %d, "
-                "\"sigma\": %.5f, \"crop\": \"%s\"}\n",
-                o.decode.decoded, seconds, o.decode.decoded / seconds,
-                double(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-                    1e-6 * double(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec),
-                double(usage.ru_maxrss) / 1024, int(o.samples.size()), o.width(), o.height(),
-                o.noise.sigma, o.crop.sentence.c_str());
+    std::printf(
+        "{\"frames\": %d, \"seconds\": %.3f, \"fps\": %.1f, \"cpu_seconds\": %.2f, "
+        "\"peak_mb\": %.0f, \"samples\": %d, \"width\": %d, \"height\": %d, "
+        "\"sigma\": %.5f, \"crop\": \"%s\"}\n",
+        o.decode.decoded, seconds, o.decode.decoded / seconds,
+        double(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+            1e-6 * double(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec),
+        double(usage.ru_maxrss) / 1024, int(o.samples.size()), o.width(), o.height(), o.noise.sigma,
+        o.crop.sentence.c_str());
     return 0;
 } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
