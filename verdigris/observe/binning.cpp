@@ -13,8 +13,8 @@ namespace verdigris {
 namespace {
 
 // chosen: up to this many crop pixels the probe is the whole sample; beyond, bands of together
-// kProbePixels source pixels: 1e5 differences per sample put the median within 1 % at once.
-constexpr int kWholeProbe = 1 << 18, kProbePixels = 1 << 17;
+// kProbePixels source pixels: 2e5 differences per sample, of which a few samples suffice.
+constexpr int kWholeProbe = 1 << 17, kProbePixels = 1 << 16;
 constexpr int kBands = 8;
 
 // Makes a part of the samples: rows [begin, end) of the output.
@@ -63,7 +63,7 @@ class Binner {
           noise_(plan.width, probe_.rows),
           jumps_(recording.info().format),
           full_(needed_in_full()),
-          line_(kept_bins(), plan.width, plan.height, plan.store),
+          line_(kept_bins(), plan.width, plan.height, plan.store, plan.specimen.empty()),
           whole_(recording.info().format, plan, 0, plan.height) {
         for (const auto& [begin, end] : probe_.bands) {
             bands_.emplace_back(recording.info().format, plan, begin, end);
@@ -93,7 +93,7 @@ class Binner {
 
     Binned finish(const DecodeReport& report) {
         close();
-        Binned out{line_.finish(),    line_.kept(), 0,      line_.clipped(),
+        Binned out{line_.finish(),    line_.kept(), 0,      line_.clipped(), line_.take_look(),
                    std::move(noise_), probe_,       report, jumps_.finding()};
         out.samples = out.kept.empty() ? 0 : out.kept.back().bin + 1;
         return out;

@@ -41,6 +41,7 @@ struct Binned {
     std::vector<SampleLine::Kept> kept;
     int samples = 0;  ///< of the axis that could be filled: less if the tail is broken
     Mask clipped;
+    Look look;  ///< at the samples, if the specimen was not known before
     std::optional<double> sigma_of(const Mask& specimen) const;
     NoiseMeter noise;
     ProbeRows probe;

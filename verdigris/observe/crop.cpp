@@ -219,6 +219,7 @@ SpecimenFinding find_specimen(const Look& look) {
     const Mask cluster = specimen_cluster(map);
     const cv::Mat copper = view_of(map.copper) | view_of(cluster);
     const cv::Mat seed = changed | (copper & (z > kChangedCopper));
+    // Otsu [Otsu1979] picks the parts that count; it does not shape them.
     const cv::Mat strong = z > std::max(double(kChanged), otsu_of(z));
     std::vector<Candidate> found = candidates(cleaned(seed), strong, z);
     merge_best(found);

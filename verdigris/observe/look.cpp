@@ -21,21 +21,6 @@ constexpr double kFramesPerJump = 125;
 // chosen: the look may cost this share of decoding the recording.
 constexpr double kLookShare = 0.04;
 
-std::vector<int> evenly(int frames, int count) {
-    std::vector<int> indices;
-    for (int i = 0; i < count; ++i) {
-        indices.push_back(count == 1 ? 0
-                                     : int(std::lround(double(i) * (frames - 1) / (count - 1))));
-    }
-    return indices;
-}
-
-Image<SrgbF> small(const Image<SrgbF>& shown) {
-    if (std::max(shown.width(), shown.height()) <= kLookSide) return shown.clone();
-    const auto [w, h] = size_with_long_side(shown.width(), shown.height(), kLookSide);
-    return resample(shown, w, h);
-}
-
 // Reads the frames `wanted`; false if the recording ends before the last of them.
 bool read_looks(const Recording& recording, const std::vector<int>& wanted,
                 const Progress& progress, const LookVisitor& visit, Look& look) {
@@ -52,7 +37,7 @@ bool read_looks(const Recording& recording, const std::vector<int>& wanted,
         const Image<SrgbF> shown =
             srgb_from_planes(frame.planes, info.format, {0, 0, info.width, info.height});
         if (visit) visit(frame, shown);
-        look.frames.push_back(small(shown));
+        look.frames.push_back(look_sized(shown));
         look.index.push_back(frame.index);
         look.decodable = position;
     }
@@ -78,6 +63,20 @@ int decodable_frames(const Recording& recording, int good, int bad, const Progre
 }
 
 }  // namespace
+
+std::vector<int> evenly(int of, int count) {
+    std::vector<int> indices;
+    for (int i = 0; i < count; ++i) {
+        indices.push_back(count == 1 ? 0 : int(std::lround(double(i) * (of - 1) / (count - 1))));
+    }
+    return indices;
+}
+
+Image<SrgbF> look_sized(const Image<SrgbF>& shown) {
+    if (std::max(shown.width(), shown.height()) <= kLookSide) return shown.clone();
+    const auto [w, h] = size_with_long_side(shown.width(), shown.height(), kLookSide);
+    return resample(shown, w, h);
+}
 
 std::vector<int> look_indices(RecordingKind kind, int frames) {
     if (frames <= kMaxLooks) return evenly(frames, frames);
@@ -119,18 +118,6 @@ Look look_at(const Recording& recording, const Progress& progress, const LookVis
         if (decodable >= frames || decodable <= seen) return look;
         frames = decodable;
     }
-}
-
-Look look_at(const SampleStore& store) {
-    Look look;
-    look.frame_width = store.width();
-    look.frame_height = store.height();
-    look.decodable = store.count();
-    for (const int i : evenly(store.count(), std::min(store.count(), kMaxLooks))) {
-        look.frames.push_back(small(store.image(i)));
-        look.index.push_back(i);
-    }
-    return look;
 }
 
 }  // namespace verdigris

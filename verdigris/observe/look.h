@@ -38,7 +38,9 @@ using LookVisitor = std::function<void(const Frame& frame, const Image<SrgbF>& s
 /// Throws Error{bad_input} naming the recording if no frame decodes.
 Look look_at(const Recording& recording, const Progress& progress, const LookVisitor& visit = {});
 
-/// A look made of samples: evenly spaced, at most kMaxLooks. For a crop that needs no look before.
-Look look_at(const SampleStore& store);
+/// `count` of [0, of), evenly spaced from the first to the last.
+std::vector<int> evenly(int of, int count);
+/// The picture at the size of a look.
+Image<SrgbF> look_sized(const Image<SrgbF>& shown);
 
 }  // namespace verdigris

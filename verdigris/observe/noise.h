@@ -43,6 +43,7 @@ class NoiseMeter {
     static constexpr int kCellsAcross = 16, kCellsDown = 8;
     static constexpr int kLevels = 16384;  ///< |r| up to 0.25; more counts as 0.25
     int cell(int x, int y) const;
+    void count_row(int y, const SrgbU16* oldest, const SrgbU16* middle, const SrgbU16* newest);
 
     int width_, height_;
     Mask inside_;

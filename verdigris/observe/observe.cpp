@@ -172,7 +172,7 @@ Observation observe(const Recording& recording, const ObserveOptions& options,
     out.notes.insert(out.notes.end(), axis.notes.begin(), axis.notes.end());
     out.store = binned.store;
     if (none_mode) {
-        scene.look = look_at(*out.store);
+        scene.look = std::move(binned.look);
         if (scene.look.frames.size() >= 2) {
             scene.finding = find_specimen(scene.look);
             note_scene(scene, true, out.notes);

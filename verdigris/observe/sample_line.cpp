@@ -10,6 +10,8 @@ namespace verdigris {
 namespace {
 
 constexpr int kLongestContext = 10;  // the paper's sweep goes to n = 10 [Paper]
+constexpr int kOften =
+    20;  // chosen: a 20th of the samples; the lamp's glint on a plate stays, others pass
 constexpr int kRowsPerRun = 32;
 
 Image<SrgbF> between(const Image<SrgbF>& a, const Image<SrgbF>& b, float t) {
@@ -48,7 +50,7 @@ Mask ClipRecord::mask(int count) const {
             const History& h = history_(x, y);
             const bool recent = h.latest > 0 && h.latest > count - kLongestContext;
             const bool twice = h.before > 0 && h.before > count - std::max(count / 3, 1);
-            const bool often = h.times > 0 && 4 * int(h.times) >= count;
+            const bool often = h.times >= 2 && kOften * int(h.times) >= count;
             if (recent || twice || often) hit(x, y) = kInside;
         }
     }
@@ -65,10 +67,13 @@ Mask ClipRecord::mask(int count) const {
 }
 
 SampleLine::SampleLine(std::vector<int> bins, int width, int height,
-                       const std::filesystem::path& store)
-    : bins_(std::move(bins)),
-      sink_(make_sample_sink(store, width, height)),
-      clips_(width, height) {}
+                       const std::filesystem::path& store, bool looking)
+    : bins_(std::move(bins)), sink_(make_sample_sink(store, width, height)), clips_(width, height) {
+    const int count = int(bins_.size());
+    if (looking) look_at_ = evenly(count, std::min(count, kMaxLooks));
+    look_.frame_width = width;
+    look_.frame_height = height;
+}
 
 void SampleLine::give(int bin, int frames, Image<SrgbF> image) {
     for (; next_ < bins_.size() && bins_[next_] < bin; ++next_) {
@@ -88,7 +93,13 @@ void SampleLine::give(int bin, int frames, Image<SrgbF> image) {
 }
 
 void SampleLine::emit(int bin, int frames, Image<SrgbF> image) {
-    clips_.add(int(kept_.size()), image);
+    const int position = int(kept_.size());
+    clips_.add(position, image);
+    if (std::binary_search(look_at_.begin(), look_at_.end(), position)) {
+        look_.frames.push_back(look_sized(image));
+        look_.index.push_back(position);
+        look_.decodable = position + 1;
+    }
     kept_.push_back({bin, frames});
     sink_->append(std::move(image));
 }

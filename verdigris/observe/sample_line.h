@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "verdigris/observe/look.h"
 #include "verdigris/observe/observe.h"
 #include "verdigris/observe/sample_store.h"
 
@@ -20,8 +21,9 @@ class ClipRecord {
     ClipRecord(int width, int height);
     void add(int position, const Image<SrgbF>& sample);
     /// What must not steer a fit, of `count` samples: saturated in one of the last 10 (the longest
-    /// context of the paper), in two of the last third, or in a quarter of all. Dilated by one
-    /// pixel: demosaicing and blur carry a glint that far.
+    /// context of the paper), in two of the last third, or in a 20th of all (the lamp's glint, even
+    /// if the surface has become matte since). Dilated by one pixel: demosaicing and blur carry a
+    /// glint that far.
     Mask mask(int count) const;
 
   private:
@@ -33,8 +35,10 @@ class ClipRecord {
 
 class SampleLine {
   public:
-    /// `bins`: the bins to keep, increasing.
-    SampleLine(std::vector<int> bins, int width, int height, const std::filesystem::path& store);
+    /// `bins`: the bins to keep, increasing. With `looking`, a look at the samples is taken as
+    /// they pass.
+    SampleLine(std::vector<int> bins, int width, int height, const std::filesystem::path& store,
+               bool looking);
 
     /// The image of a kept bin; bins in between that were not given are interpolated.
     void give(int bin, int frames, Image<SrgbF> image);
@@ -46,6 +50,8 @@ class SampleLine {
         int bin = 0, frames = 0;
     };
     const std::vector<Kept>& kept() const { return kept_; }
+    /// Evenly spaced samples; frames are samples here.
+    Look take_look() { return std::move(look_); }
     Mask clipped() const { return clips_.mask(int(kept_.size())); }
 
   private:
@@ -57,6 +63,8 @@ class SampleLine {
     std::vector<Kept> kept_;
     Image<SrgbF> last_;
     int last_bin_ = -1;
+    std::vector<int> look_at_;
+    Look look_;
 };
 
 }  // namespace verdigris
