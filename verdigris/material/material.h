@@ -24,7 +24,7 @@ struct MaterialOptions {
     double height_patina_weight = 0.45;
     double height_sigma = 1.0;            ///< Gaussian on the luma, pixels. chosen: see the model
     double micro_sigma = 2.0;             ///< low-pass of the high-pass, pixels. chosen
-    double micro_range = 0.02;            ///< high-pass amplitude that counts as full. chosen
+    double micro_range = 0.04;            ///< high-pass amplitude that counts as full. chosen
     double normal_scale = 2.6;            ///< the paper's gradient scale
     double normal_gain = 8;               ///< 8: plain Sobel; 1: gradient per pixel. chosen: the model
     /// Where the 99th percentile is taken, in units. 0: at twice the context length, the horizon
