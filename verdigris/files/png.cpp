@@ -113,13 +113,22 @@ void put_samples(const std::uint16_t* in, std::size_t count, std::uint8_t* out) 
     }
 }
 
+// Not a vector: filling a hundred megabytes with zeros first costs as much as filtering them.
+struct Buffer {
+    std::unique_ptr<std::uint8_t[]> data;
+    std::size_t size = 0;
+    explicit Buffer(std::size_t bytes)
+        : data(std::make_unique_for_overwrite<std::uint8_t[]>(bytes)), size(bytes) {}
+    std::span<const std::byte> bytes() const { return std::as_bytes(std::span(data.get(), size)); }
+};
+
 // The filtered picture, ready to be compressed: one filter byte and the samples of each row.
 template <class P>
-std::vector<std::uint8_t> filtered(ImageView<const P> image) {
+Buffer filtered(ImageView<const P> image) {
     using Sample = typename Layout<P>::Sample;
     const std::size_t samples = std::size_t(image.width()) * Layout<P>::kChannels;
     const std::size_t row_bytes = samples * sizeof(Sample);
-    std::vector<std::uint8_t> out((row_bytes + 1) * std::size_t(image.height()));
+    Buffer out((row_bytes + 1) * std::size_t(image.height()));
     parallel_rows(image.height(), kRowsPerRun, [&](RowRun run) {
         std::vector<std::uint8_t> above(row_bytes), row(row_bytes);
         const auto read = [&](int y, std::vector<std::uint8_t>& to) {
@@ -128,7 +137,7 @@ std::vector<std::uint8_t> filtered(ImageView<const P> image) {
         if (run.begin > 0) read(run.begin - 1, above);
         for (int y = run.begin; y < run.end; ++y) {
             read(y, row);
-            std::uint8_t* to = out.data() + std::size_t(y) * (row_bytes + 1);
+            std::uint8_t* to = out.data.get() + std::size_t(y) * (row_bytes + 1);
             *to++ = kUpFilter;
             for (std::size_t i = 0; i < row_bytes; ++i) to[i] = std::uint8_t(row[i] - above[i]);
             std::swap(row, above);
@@ -137,7 +146,7 @@ std::vector<std::uint8_t> filtered(ImageView<const P> image) {
     return out;
 }
 
-Bytes compressed(std::span<const std::uint8_t> data, int level) {
+Buffer compressed(const Buffer& data, int level) {
     const auto release = [](libdeflate_compressor* c) { libdeflate_free_compressor(c); };
     const std::unique_ptr<libdeflate_compressor, decltype(release)> compressor(
         libdeflate_alloc_compressor(level), release);
@@ -145,9 +154,9 @@ Bytes compressed(std::span<const std::uint8_t> data, int level) {
         throw Error(ErrorCode::usage,
                     "PNG compression level " + std::to_string(level) + " is not in 1..12");
     }
-    Bytes out(libdeflate_zlib_compress_bound(compressor.get(), data.size()));
-    out.resize(libdeflate_zlib_compress(compressor.get(), data.data(), data.size(), out.data(),
-                                        out.size()));
+    Buffer out(libdeflate_zlib_compress_bound(compressor.get(), data.size));
+    out.size = libdeflate_zlib_compress(compressor.get(), data.data.get(), data.size,
+                                        out.data.get(), out.size);
     return out;
 }
 
@@ -158,10 +167,10 @@ Bytes encode(ImageView<const P> image, const PngOptions& options) {
         throw Error(ErrorCode::usage,
                     "PNG compression level " + std::to_string(options.level) + " is not in 1..12");
     }
-    const Bytes data = compressed(filtered(image), options.level);
+    const Buffer data = compressed(filtered(image), options.level);
 
     Bytes out;
-    out.reserve(data.size() + 1024);
+    out.reserve(data.size + 1024);
     // [PNG, 5.2]: the signature spells PNG between bytes that text transfers would damage.
     for (const int v : {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a})
         out.push_back(std::byte(v));
@@ -169,8 +178,8 @@ Bytes encode(ImageView<const P> image, const PngOptions& options) {
                Layout<P>::kChannels);
     if (Layout<P>::kColor) put_color(out);
     for (const PngText& text : options.text) put_text(out, text);
-    for (std::size_t at = 0; at < data.size(); at += kMaxIdat) {
-        put_chunk(out, "IDAT", std::span(data).subspan(at, std::min(kMaxIdat, data.size() - at)));
+    for (std::size_t at = 0; at < data.size; at += kMaxIdat) {
+        put_chunk(out, "IDAT", data.bytes().subspan(at, std::min(kMaxIdat, data.size - at)));
     }
     put_chunk(out, "IEND", {});
     return out;
