@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/deliver/contact_sheet.h"
 
+#include <cairo.h>
+#include <fontconfig/fontconfig.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +16,18 @@
 
 namespace verdigris {
 namespace {
+
+// cairo keeps fonts for the whole process, behind pointers that the leak checker cannot follow
+// (fontconfig stores them as offsets). Given back when all tests are done.
+class GiveBackFonts : public testing::Environment {
+  public:
+    void TearDown() override {
+        cairo_debug_reset_static_data();
+        FcFini();
+    }
+};
+[[maybe_unused]] const auto* const kGiveBackFonts =
+    testing::AddGlobalTestEnvironment(new GiveBackFonts);
 
 constexpr SrgbU8 kGround{0x1D, 0x1F, 0x21};
 

@@ -40,7 +40,7 @@ std::vector<PackFile> pack_files(const Delivery& delivery, const DeliveredState&
                                  const Material& material) {
     const int width = material.albedo.width(), height = material.albedo.height();
     const std::string prefix = texture_prefix(delivery, state, width, height);
-    const fs::path pack = fs::path("textures") / (delivery.stem + "_" + state.label);
+    const fs::path pack = delivery.stem + "_" + state.label;
     // The observed color is a photograph; every other map is computed from it.
     const SourceType computed = forecast_source(*delivery.forecast);
     const PngOptions color = png_options(state.observed() ? SourceType::capture : computed);

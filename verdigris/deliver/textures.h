@@ -11,9 +11,10 @@
 
 namespace verdigris {
 
-/// textures/<Stem>_u010/<Stem>_u010[_2K]_Color.png, _NormalGL, _Roughness, _Metalness,
-/// _Displacement (16 bit), _ORM; dx/..._NormalDX; masters16/ 16-bit of each; README.txt with the
-/// conventions. One pack per horizon and one for the observed state (u000). "2K" only if true.
+/// Into `folder`, which is the textures folder itself: <Stem>_u010/<Stem>_u010[_2K]_Color.png,
+/// _NormalGL, _Roughness, _Metalness, _Displacement (16 bit), _ORM; dx/..._NormalDX; masters16/
+/// 16-bit of each; README.txt with the conventions. One pack per horizon and one for the observed
+/// state (u000). "2K" only if true.
 /// Returns the files written, relative to `folder`. Throws Error{failed}.
 std::vector<std::filesystem::path> write_textures(const Delivery& delivery,
                                                   const std::filesystem::path& folder,

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kPack = "textures/CopperPatinating_u020";
+const fs::path kPack = "CopperPatinating_u020";
 const std::string kPrefix = "CopperPatinating_u020_";
 
 template <class P>
@@ -34,7 +34,7 @@ TEST(Textures, WritesExactlyTheStatedFiles) {
     std::set<std::string> expected;
     for (const char* label : {"u000", "u005", "u020"}) {
         const std::string stem = std::string("CopperPatinating_") + label;
-        const std::string pack = "textures/" + stem + "/";
+        const std::string pack = stem + "/";
         for (const char* map :
              {"Color", "NormalGL", "Roughness", "Metalness", "Displacement", "ORM"}) {
             expected.insert(pack + stem + "_" + map + ".png");
@@ -105,7 +105,7 @@ TEST(Textures, ABumpLitFromAboveLooksRaised) {
     }
     made.recipe.luma_fill(16, 16) = -1;
     write_textures(made.delivery, folder.path());
-    const fs::path pack = folder.path() / "textures/CopperPatinating_u000";
+    const fs::path pack = folder.path() / "CopperPatinating_u000";
     const auto gl = read<SrgbU8>(pack / "CopperPatinating_u000_NormalGL.png");
     const auto dx = read<SrgbU8>(pack / "dx" / "CopperPatinating_u000_NormalDX.png");
     EXPECT_GT(gl(16, 10).g, 135);
@@ -203,11 +203,10 @@ TEST(Textures, OnePixelWideFractionalHorizonAndNoChange) {
     EXPECT_TRUE(std::any_of(files.begin(), files.end(), [](const fs::path& file) {
         return file.filename() == "CopperPatinating_" + horizon_label(7.5) + "_Color.png";
     }));
-    const auto before = read<SrgbU16>(folder.path() / "textures/CopperPatinating_u000/masters16" /
+    const auto before = read<SrgbU16>(folder.path() / "CopperPatinating_u000/masters16" /
                                       "CopperPatinating_u000_Color.png");
     const std::string stem = "CopperPatinating_" + horizon_label(7.5);
-    const auto after =
-        read<SrgbU16>(folder.path() / "textures" / stem / "masters16" / (stem + "_Color.png"));
+    const auto after = read<SrgbU16>(folder.path() / stem / "masters16" / (stem + "_Color.png"));
     ASSERT_TRUE(before.same_size(1, 9));
     EXPECT_TRUE(std::equal(before.pixels().begin(), before.pixels().end(), after.pixels().begin()));
 }
