@@ -21,10 +21,10 @@ enum class FitPixels { all, specimen };  ///< the paper fits all; clipped pixels
 
 struct AffineOptions {
     AffineFamily family{AffineFamily::full};
-    int order = 1;                   ///< 0 holds (persistence exactly), 1 linear, 2 accelerating
-    double ridge_k = 30;             ///< lambda = ridge_k * sigma^2; 0 reproduces the paper
+    int order = 1;        ///< 0 holds (persistence exactly), 1 linear, 2 accelerating
+    double ridge_k = 30;  ///< lambda = ridge_k * sigma^2; 0 reproduces the paper
     FitPixels pixels{FitPixels::all};
-    bool clamp = true;               ///< see Trajectory::clamp
+    bool clamp = true;  ///< see Trajectory::clamp
 };
 
 /// dx/dt = S x + s per unit of time (order 1), plus the same for the square term (order 2).

@@ -19,7 +19,7 @@ struct ChooseOptions {
 /// One row of the back-test: a candidate's error on frames it was not shown.
 struct BacktestRow {
     std::string forecaster;
-    double mean_squared_error = 0;  ///< over specimen pixels that are not clipped
+    double mean_squared_error = 0;     ///< over specimen pixels that are not clipped
     double gain_over_persistence = 0;  ///< 1 - error / persistence error
     int frames_predicted = 0;
 };

@@ -70,12 +70,12 @@ struct FrameStack {
 
 /// The result of stage 2.
 struct Forecast {
-    std::string forecaster;    ///< "persistence", "affinergb full order 1", ...
-    std::string explanation;   ///< which evidence decided, in a sentence
-    Trajectory trajectory;     ///< used unless `stack` has frames
+    std::string forecaster;   ///< "persistence", "affinergb full order 1", ...
+    std::string explanation;  ///< which evidence decided, in a sentence
+    Trajectory trajectory;    ///< used unless `stack` has frames
     FrameStack stack;
     int context_length = 0;
-    Statuses guards;           ///< those that hold at every horizon
+    Statuses guards;  ///< those that hold at every horizon
 
     bool is_trajectory() const { return stack.frames.empty(); }
     /// The forecast frame; horizon >= 0. at(0) is the last observed frame, exactly.

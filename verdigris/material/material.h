@@ -19,14 +19,14 @@ struct MaterialOptions {
     double coverage_exponent = 0.85;
     double normalizer_percentile = 0.99;  ///< of the change map above tau
     double roughness_clean = 0.16, roughness_patina = 0.88, roughness_gamma = 0.75;
-    double micro_roughness = 0.06;        ///< +- from the high-pass of the height field
+    double micro_roughness = 0.06;  ///< +- from the high-pass of the height field
     double metallic_patina = 0.03, metallic_clean = 0.97, metallic_gamma = 1.25;
     double height_patina_weight = 0.45;
-    double height_sigma = 1.0;            ///< Gaussian on the luma, pixels. chosen: see the model
-    double micro_sigma = 2.0;             ///< low-pass of the high-pass, pixels. chosen
-    double micro_range = 0.04;            ///< high-pass amplitude that counts as full. chosen
-    double normal_scale = 2.6;            ///< the paper's gradient scale
-    double normal_gain = 8;               ///< 8: plain Sobel; 1: gradient per pixel. chosen: the model
+    double height_sigma = 1.0;  ///< Gaussian on the luma, pixels. chosen: see the model
+    double micro_sigma = 2.0;   ///< low-pass of the high-pass, pixels. chosen
+    double micro_range = 0.04;  ///< high-pass amplitude that counts as full. chosen
+    double normal_scale = 2.6;  ///< the paper's gradient scale
+    double normal_gain = 8;     ///< 8: plain Sobel; 1: gradient per pixel. chosen: the model
     /// Where the 99th percentile is taken, in units. 0: at twice the context length, the horizon
     /// up to which the guards trust a forecast. Fixed per specimen, so that coverage grows
     /// smoothly with the age. chosen.
@@ -48,13 +48,13 @@ struct MapOrigin {
 /// All that stage 3 needs beside a frame; computed once per specimen.
 struct MaterialRecipe {
     MaterialOptions options;
-    Image<SrgbF> canvas;      ///< temporal median of the context: the clean state C
+    Image<SrgbF> canvas;  ///< temporal median of the context: the clean state C
     /// Per pixel max(tau, |x(0) - C|): with it, coverage is 0 at horizon 0 and continuous after.
     Image<float> dead_zone;
     double tau = 0;
-    double normalizer = 1;    ///< s of Eq. (2); 1 if nothing changes
+    double normalizer = 1;  ///< s of Eq. (2); 1 if nothing changes
     double reference_horizon = 0;
-    Mask active;              ///< specimen and not clipped: elsewhere coverage is 0
+    Mask active;  ///< specimen and not clipped: elsewhere coverage is 0
     /// Luma to use where a pixel is clipped (a smooth fill), so that a glint raises no bump;
     /// negative elsewhere.
     Image<float> luma_fill;
@@ -66,8 +66,8 @@ struct Material {
     Image<Vec3F> normal;     ///< unit, +X right, +Y up (OpenGL), +Z to the viewer
     Image<float> roughness;  ///< perceptual, as glTF
     Image<float> metallic;
-    Image<float> height;     ///< 0..1
-    Image<float> coverage;   ///< p of Eq. (2)
+    Image<float> height;    ///< 0..1
+    Image<float> coverage;  ///< p of Eq. (2)
 };
 
 /// Median, dead-zone, normalizer, fill. O(pixels * n log n).
