@@ -67,29 +67,16 @@ std::string why_not_video(const std::filesystem::path& path, int error) {
     return "cannot be opened as a video (" + libav::words(error) + ")";
 }
 
-bool is_encrypted(const AVStream* stream) {
-    return av_stream_get_side_data(stream, AV_PKT_DATA_ENCRYPTION_INIT_INFO, nullptr) ||
-           stream->codecpar->codec_tag == MKTAG('e', 'n', 'c', 'v');
-}
+constexpr const char* kEncrypted = "is encrypted; remove the copy protection first";
 
-// Decoders that give up on a damaged frame when asked to. FFmpeg's H.263 family (MPEG-4 part 2
-// among them) is not asked: it then fails an assertion of its own and ends the process (5.1,
-// decode.c: frame->buf[0]). It marks such frames instead.
-bool may_explode(const AVCodec& decoder) {
-    switch (decoder.id) {
-        case AV_CODEC_ID_H264:
-        case AV_CODEC_ID_HEVC:
-        case AV_CODEC_ID_VP8:
-        case AV_CODEC_ID_VP9:
-        case AV_CODEC_ID_AV1:
-        case AV_CODEC_ID_MJPEG:
-        case AV_CODEC_ID_FFV1:
-        case AV_CODEC_ID_PRORES:
-        case AV_CODEC_ID_DNXHD:
-            return true;
-        default:
-            return false;
+bool holds_encrypted_packets(AVFormatContext* format) {
+    const libav::PacketPtr packet = libav::new_packet();
+    bool found = false;
+    while (!found && av_read_frame(format, packet.get()) >= 0) {
+        found = is_encrypted(*packet);
+        av_packet_unref(packet.get());
     }
+    return found;
 }
 
 }  // namespace
@@ -120,11 +107,9 @@ VideoContainer open_container(const std::filesystem::path& path) {
     for (unsigned i = 0; i < format->nb_streams; ++i) {
         format->streams[i]->discard = int(i) == best ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
     }
-    if (is_encrypted(container.stream)) {
-        refuse(path, "is encrypted; remove the copy protection first");
-    }
     const AVCodecParameters& codec = container.codec();
     if (codec.width <= 0 || codec.height <= 0) {
+        if (holds_encrypted_packets(format)) refuse(path, kEncrypted);
         refuse(path, "announces a video, but no picture of it can be found");
     }
     if (std::int64_t(codec.width) * codec.height > kMaxImagePixels) {
@@ -134,7 +119,34 @@ VideoContainer open_container(const std::filesystem::path& path) {
     return container;
 }
 
-libav::CodecPtr open_decoder(const VideoContainer& container, int threads, bool strict,
+bool is_encrypted(const AVPacket& packet) {
+    return av_packet_get_side_data(&packet, AV_PKT_DATA_ENCRYPTION_INFO, nullptr) != nullptr;
+}
+
+void refuse_encrypted(const std::filesystem::path& path) {
+    refuse(path, kEncrypted);
+}
+
+bool only_marks_damage(const VideoContainer& container) {
+    switch (container.codec().codec_id) {
+        case AV_CODEC_ID_H264:
+        case AV_CODEC_ID_HEVC:
+        case AV_CODEC_ID_VP8:
+        case AV_CODEC_ID_VP9:
+        case AV_CODEC_ID_AV1:
+        case AV_CODEC_ID_MJPEG:
+        case AV_CODEC_ID_FFV1:
+        case AV_CODEC_ID_PRORES:
+        case AV_CODEC_ID_DNXHD:
+            return false;
+        default:
+            // FFmpeg's H.263 family (MPEG-4 part 2 among them) must not be asked to give up: it
+            // then fails an assertion of its own and ends the process (5.1, decode.c, buf[0]).
+            return true;
+    }
+}
+
+libav::CodecPtr open_decoder(const VideoContainer& container, Decoding how, int threads,
                              const std::filesystem::path& path) {
     const AVCodecParameters& parameters = container.codec();
     const AVCodec* decoder = avcodec_find_decoder(parameters.codec_id);
@@ -145,17 +157,22 @@ libav::CodecPtr open_decoder(const VideoContainer& container, int threads, bool 
     libav::CodecPtr codec(avcodec_alloc_context3(decoder));
     if (!codec) throw std::bad_alloc();
     if (avcodec_parameters_to_context(codec.get(), &parameters) < 0) throw std::bad_alloc();
-    // FFmpeg warns beyond 16 frame threads: each holds frames of its own.
-    const int cores = int(std::thread::hardware_concurrency());
-    codec->thread_count = threads > 0 ? threads : std::clamp(cores, 1, 16);
-    // Marks on damaged frames get lost between frame threads (measured: 2 of 3), errors do not.
-    codec->thread_type =
-        strict && !may_explode(*decoder) ? FF_THREAD_SLICE : FF_THREAD_FRAME | FF_THREAD_SLICE;
+    // chosen: at most 16, beyond which FFmpeg itself warns: each thread holds frames of its own.
+    const int cores = std::clamp(int(std::thread::hardware_concurrency()), 1, 16);
+    codec->thread_count = how == Decoding::careful ? 1 : threads > 0 ? threads : cores;
+    codec->thread_type = FF_THREAD_SLICE;
+    const bool marks = only_marks_damage(container);
+    if (how == Decoding::lenient || !marks) codec->thread_type |= FF_THREAD_FRAME;
+    if (how != Decoding::lenient) {
+        codec->err_recognition = AV_EF_CRCCHECK;
+        // H.264 gives up also on a reference that is only missing because decoding began at an
+        // open group; carefully, its marks are enough and tell the two apart.
+        const bool h264_carefully =
+            how == Decoding::careful && parameters.codec_id == AV_CODEC_ID_H264;
+        if (!marks && !h264_carefully) codec->err_recognition |= AV_EF_EXPLODE;
+    }
     // Crops exactly: without it the left edge is rounded to what SIMD likes.
     codec->flags |= AV_CODEC_FLAG_UNALIGNED;
-    if (strict)
-        codec->err_recognition = AV_EF_CRCCHECK | (may_explode(*decoder) ? AV_EF_EXPLODE : 0);
-    codec->skip_alpha = 1;
     if (const int error = avcodec_open2(codec.get(), decoder, nullptr); error < 0) {
         refuse(path, std::string("the ") + decoder->name + " decoder does not accept it (" +
                          libav::words(error) + ")");

@@ -20,10 +20,23 @@ struct VideoContainer {
 /// Throws Error{bad_input}: not a video, no index (moov), no picture, encrypted, too large.
 VideoContainer open_container(const std::filesystem::path& path);
 
-/// A decoder for `container`. `threads` 0: all cores. A strict decoder reports a damaged frame as
-/// an error; one that is not strict fills holes from other frames.
+/// True for a packet under common encryption (CENC).
+bool is_encrypted(const AVPacket& packet);
+[[noreturn]] void refuse_encrypted(const std::filesystem::path& path);
+
+/// How a decoder is opened.
+enum class Decoding {
+    fast,     ///< all threads; damage is an error where the decoder can be asked for that
+    careful,  ///< one thread: an error belongs to the packet sent last, marks on frames are true
+    lenient,  ///< all threads; holes are filled from other frames and nothing is said
+};
+
+/// A decoder for `container`. `threads` 0: all cores.
 /// Throws Error{bad_input}: no decoder for it.
-libav::CodecPtr open_decoder(const VideoContainer& container, int threads, bool strict,
+libav::CodecPtr open_decoder(const VideoContainer& container, Decoding how, int threads,
                              const std::filesystem::path& path);
+/// True for codecs that only mark damaged frames and never give up on them: these are decoded
+/// without frame threads, which lose the marks, and so carefully from the first.
+bool only_marks_damage(const VideoContainer& container);
 
 }  // namespace verdigris

@@ -34,20 +34,24 @@ bool VideoPackets::read(AVPacket& packet) {
 }
 
 int VideoPackets::number_of(const AVPacket& packet) const {
-    int found = -1;
-    const std::int64_t pts = shown_at(packet);
-    for (std::size_t i = 0; i < index_.packets.size(); ++i) {
-        const VideoPacket& entry = index_.packets[i];
-        if (entry.pos != packet.pos || entry.pts != pts) continue;
-        if (found >= 0) return -1;  // two alike: not to be told apart
-        found = int(i);
+    // By its place in the file; by its time too where several packets share a place or have none.
+    int found = -1, alike = 0;
+    for (const bool by_time : {false, true}) {
+        alike = 0;
+        for (std::size_t i = 0; i < index_.packets.size(); ++i) {
+            const VideoPacket& entry = index_.packets[i];
+            if (entry.pos != packet.pos || (by_time && entry.stamp != stamp_of(packet))) continue;
+            found = int(i);
+            ++alike;
+        }
+        if (alike == 1) return found;
     }
-    return found;
+    return -1;
 }
 
 // Seeks for the time of packet `landmark` and reads on to `target`.
 bool VideoPackets::try_seek(int target, int landmark) {
-    const std::int64_t pts = index_.packets[std::size_t(landmark)].pts;
+    const std::int64_t pts = index_.packets[std::size_t(landmark)].stamp;
     if (av_seek_frame(container_.format.get(), container_.stream->index, pts,
                       AVSEEK_FLAG_BACKWARD) < 0) {
         return false;

@@ -13,9 +13,14 @@ namespace verdigris {
 VideoReader::VideoReader(std::shared_ptr<const VideoDescription> video)
     : video_(std::move(video)),
       packets_(video_->path, video_->index),
-      packet_(libav::new_packet()),
-      careful_(video_->threads == 1) {
-    codec_ = open_decoder(packets_.container(), video_->threads, video_->strict, video_->path);
+      packet_(libav::new_packet()) {
+    open(video_->strict ? Decoding::fast : Decoding::lenient);
+    careful_ = !video_->strict || only_marks_damage(packets_.container());
+}
+
+void VideoReader::open(Decoding how) {
+    codec_ = open_decoder(packets_.container(), how, video_->threads, video_->path);
+    codec_->opaque = &complaints_;
 }
 
 bool VideoReader::next(Frame& frame) {
@@ -62,46 +67,90 @@ void VideoReader::restart(int key) {
     counted_ = std::max(video_->index.packets[std::size_t(key)].frame, 0);
     waiting_ = at_end_ = false;
     errors_in_a_row_ = 0;
+    held_.clear();
+    last_out_ = -1;
+}
+
+bool VideoReader::is_left_out(int index) const {
+    const int packet = video_->index.packet_of_frame[std::size_t(index)];
+    return packet >= broken_ && packet < whole_;
 }
 
 // The next whole frame at or after position_, or null at the end.
 libav::FramePtr VideoReader::next_in_order(int& index) {
-    const VideoIndex& all = video_->index;
-    libav::FramePtr picture = libav::new_frame();
-    while (!at_end_) {
+    while (true) {
+        if (libav::FramePtr picture = take_held(index, at_end_)) return picture;
+        if (at_end_) return nullptr;
+        libav::FramePtr picture = libav::new_frame();
         const int got = avcodec_receive_frame(codec_.get(), picture.get());
         if (got == AVERROR(EAGAIN)) {
             feed();
         } else if (got == AVERROR_EOF || errors_in_a_row_ > 100) {
             // chosen: 100; a decoder that cannot be drained must not hold us for ever.
-            errors_in_a_row_ = 0;
-            if (!waiting_) {
-                at_end_ = true;
-                break;
-            }
-            avcodec_flush_buffers(codec_.get());
-            waiting_ = false;
-            key_ = packets_.next() - 1;
-            counted_ = std::max(all.packets[std::size_t(key_)].frame, 0);
-            send();
+            if (libav::FramePtr last = take_held(index, true)) return last;
+            resume();
         } else if (got < 0) {
             ++errors_in_a_row_;
             failed(std::max(last_sent_, 0), libav::words(got));
         } else {
             errors_in_a_row_ = 0;
-            index = all.knows_showing_order ? int(picture->pts) : counted_++;
-            if (index < position_ || index >= all.frame_count()) continue;
-            const int packet = all.packet_of_frame[std::size_t(index)];
-            if (packet >= broken_ && packet < whole_) continue;
-            if (video_->strict &&
-                (picture->flags & AV_FRAME_FLAG_CORRUPT || picture->decode_error_flags)) {
-                failed(packet, "parts of it are missing");
-                continue;
-            }
-            return picture;
+            hold(std::move(picture));
         }
     }
+}
+
+// Takes in what the decoder gave, unless it is damaged.
+void VideoReader::hold(libav::FramePtr picture) {
+    const VideoIndex& all = video_->index;
+    const int index = all.knows_showing_order ? int(picture->pts) : counted_++;
+    if (picture->pts == AV_NOPTS_VALUE || index < 0 || index >= all.frame_count()) return;
+    last_out_ = std::max(last_out_, index);
+    if (index < position_ || is_left_out(index)) return;
+    if (video_->strict && is_damaged(*picture)) {
+        failed(all.packet_of_frame[std::size_t(index)], "parts of it are missing");
+        return;
+    }
+    held_.push_back({std::move(picture), index});
+}
+
+// Between frame threads marks get lost, now this one, now that. A complaint is enough there to
+// look again carefully, where marks are true: the same frames come out on any number of threads.
+bool VideoReader::is_damaged(const AVFrame& picture) {
+    if (!careful_) return complaints_ > 0;
+    // FFV1 mentions a wrong checksum and hands the frame on unmarked.
+    const bool complained = complaints_.exchange(0) > 0;
+    return picture.flags & AV_FRAME_FLAG_CORRUPT || picture.decode_error_flags ||
+           (complained && codec_->codec_id == AV_CODEC_ID_FFV1);
+}
+
+// The first held frame, if nothing that it builds on can turn out to be damaged any more.
+libav::FramePtr VideoReader::take_held(int& index, bool all) {
+    while (!held_.empty()) {
+        Held& first = held_.front();
+        const int packet = video_->index.packet_of_frame[std::size_t(first.index)];
+        const bool left_out = is_left_out(first.index) || first.index < position_;
+        const bool settled = video_->index.packets[std::size_t(packet)].settled <= last_out_;
+        if (!left_out && !settled && careful_ && !all) return nullptr;
+        libav::FramePtr picture = std::move(first.picture);
+        index = first.index;
+        held_.pop_front();
+        if (!left_out) return picture;
+    }
     return nullptr;
+}
+
+// The decoder is empty: goes on after damage, or ends.
+void VideoReader::resume() {
+    errors_in_a_row_ = 0;
+    if (!waiting_) {
+        at_end_ = true;
+        return;
+    }
+    avcodec_flush_buffers(codec_.get());
+    waiting_ = false;
+    key_ = packets_.next() - 1;
+    counted_ = std::max(video_->index.packets[std::size_t(key_)].frame, 0);
+    send();
 }
 
 // Sends the next packet that is worth decoding, or asks for the frames still held back.
@@ -146,7 +195,8 @@ void VideoReader::failed(int packet, const std::string& words) {
         return;
     }
     careful_ = true;
-    codec_ = open_decoder(packets_.container(), 1, video_->strict, video_->path);
+    open(Decoding::careful);
+    complaints_ = 0;
     restart(video_->index.key_for_frame(std::min(position_, video_->index.frame_count() - 1)));
 }
 

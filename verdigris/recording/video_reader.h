@@ -4,9 +4,12 @@
 // Damage: a frame that a decoder reports as broken is left out, and so is all that builds on it,
 // up to the next key frame; a picture with holes filled from elsewhere would pass for the surface.
 // Frame threads report an error too late to say which frame it was, so the group of frames in
-// which one turns up is decoded again on one thread, and the rest of the file too.
+// which one turns up is decoded again on one thread, and the rest of the file too. There, a frame
+// is held back until all that it may build on has left the decoder without a mark of damage.
 #pragma once
 
+#include <atomic>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -39,7 +42,17 @@ class VideoReader : public FrameReader {
     libav::FramePtr next_picture(int& index);
 
   private:
+    struct Held {
+        libav::FramePtr picture;
+        int index;
+    };
     libav::FramePtr next_in_order(int& index);
+    void open(Decoding how);
+    bool is_damaged(const AVFrame& picture);
+    libav::FramePtr take_held(int& index, bool all);
+    void hold(libav::FramePtr picture);
+    bool is_left_out(int index) const;
+    void resume();
     void feed();
     void send();
     void drain();
@@ -51,15 +64,18 @@ class VideoReader : public FrameReader {
 
     std::shared_ptr<const VideoDescription> video_;
     VideoPackets packets_;
+    std::atomic<int> complaints_{0};  // of codec_, see libav.h
     libav::CodecPtr codec_;
     libav::PacketPtr packet_;
-    bool careful_;          // one thread: an error belongs to the packet sent last
+    bool careful_;          // no frame threads: an error belongs to the packet sent last
     bool waiting_ = false;  // packet_ is sent as soon as the decoder has been drained
     bool at_end_ = false;
     int errors_in_a_row_ = 0;
     int position_ = 0;  // the frame that next() should give
     int counted_ = 0;   // frames out of the decoder, where the showing order is not known
-    int key_ = 0;       // the packet at which decoding began
+    std::deque<Held> held_;
+    int last_out_ = -1;  // the last frame, in showing order, that left the decoder
+    int key_ = 0;        // the packet at which decoding began
     int last_sent_ = -1;
     int broken_ = 0, whole_ = 0;  // packets [broken_, whole_) are damaged or build on damage
     std::string first_damage_;

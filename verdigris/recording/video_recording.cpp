@@ -161,6 +161,7 @@ Recording open_video(const std::filesystem::path& path, const RecordingOptions& 
     if (index.frame_count() == 0) {
         throw Error(ErrorCode::bad_input, "its video stream is empty", path.string());
     }
+    if (index.encrypted) refuse_encrypted(path);
     RecordingInfo info;
     info.path = path;
     info.kind = RecordingKind::video;

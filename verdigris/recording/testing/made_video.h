@@ -26,8 +26,9 @@ inline bool have_ffmpeg() {
     return have;
 }
 inline bool have_encoder(const std::string& name) {
-    return std::system(("ffmpeg -nostdin -v error -h encoder=" + name +
-                        " 2>&1 | grep -q '^Encoder'").c_str()) == 0;
+    return std::system(
+               ("ffmpeg -nostdin -v error -h encoder=" + name + " 2>&1 | grep -q '^Encoder'")
+                   .c_str()) == 0;
 }
 
 /// The samples of all planes of a frame, as -f rawvideo has them.
@@ -47,7 +48,7 @@ inline std::string raw_bytes(const PlaneSet& set) {
 struct RawVideo {
     std::string pixel_format;  ///< FFmpeg's name
     int width = 0, height = 0;
-    std::string bytes;         ///< all frames
+    std::string bytes;  ///< all frames
 };
 
 /// Encodes `raw` at 10 frames per second. False if the encoder does not want it.
@@ -87,5 +88,7 @@ inline std::vector<std::uint64_t> marks_of(const Recording& recording, FrameRead
 
 }  // namespace verdigris::testing
 
-#define NEEDS_FFMPEG() \
-    if (!verdigris::testing::have_ffmpeg()) GTEST_SKIP() << "the ffmpeg command is not installed"
+#define NEEDS_FFMPEG()                                         \
+    if (!verdigris::testing::have_ffmpeg()) {                  \
+        GTEST_SKIP() << "the ffmpeg command is not installed"; \
+    }

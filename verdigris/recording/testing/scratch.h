@@ -73,6 +73,7 @@ bool has_note(const List& notes, const std::string& id) {
 }  // namespace verdigris::testing
 
 /// For the first line of a test that needs the shared recordings.
-#define NEEDS_SHARED_DATA(file)                                       \
-    if (!std::filesystem::exists(verdigris::testing::shared_data() / (file))) \
-    GTEST_SKIP() << "the shared recordings are not here"
+#define NEEDS_SHARED_DATA(file)                                                 \
+    if (!std::filesystem::exists(verdigris::testing::shared_data() / (file))) { \
+        GTEST_SKIP() << "the shared recordings are not here";                   \
+    }
