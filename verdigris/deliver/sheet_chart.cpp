@@ -45,7 +45,7 @@ ChangeCurve change_curve(const Delivery& delivery) {
     const Image<SrgbF> base = delivery.forecast->at(0);
     ChangeCurve curve;
     curve.trusted_until = 2.0 * delivery.forecast->context_length;
-    for (int index : evenly(int(delivery.observed.size()), kMaxObserved)) {
+    for (int index : evenly_chosen(int(delivery.observed.size()), kMaxObserved)) {
         const ObservedFrame& frame = delivery.observed[std::size_t(index)];
         if (!frame.image.same_size(base)) continue;
         curve.observed.push_back(

@@ -44,7 +44,7 @@ PictureSize tile_extent(PictureSize picture) {
     return {scaled(picture.width), scaled(picture.height)};
 }
 
-std::vector<int> evenly(int count, int limit) {
+std::vector<int> evenly_chosen(int count, int limit) {
     std::vector<int> indices;
     const int n = std::min(count, limit);
     for (int i = 0; i < n; ++i) {

@@ -42,6 +42,6 @@ PictureSize tile_extent(PictureSize picture);
 SheetLayout lay_out(const SheetContent& content);
 
 /// At most `limit` indices out of `count`, evenly spread, the first and the last among them.
-std::vector<int> evenly(int count, int limit);
+std::vector<int> evenly_chosen(int count, int limit);
 
 }  // namespace verdigris

@@ -56,10 +56,10 @@ TEST(SheetLayout, TilesKeepTheAspect) {
 }
 
 TEST(Evenly, KeepsTheEnds) {
-    EXPECT_EQ(evenly(0, 5), (std::vector<int>{}));
-    EXPECT_EQ(evenly(3, 5), (std::vector<int>{0, 1, 2}));
-    EXPECT_EQ(evenly(10, 5), (std::vector<int>{0, 2, 5, 7, 9}));
-    EXPECT_EQ(evenly(9, 1), (std::vector<int>{8}));
+    EXPECT_EQ(evenly_chosen(0, 5), (std::vector<int>{}));
+    EXPECT_EQ(evenly_chosen(3, 5), (std::vector<int>{0, 1, 2}));
+    EXPECT_EQ(evenly_chosen(10, 5), (std::vector<int>{0, 2, 5, 7, 9}));
+    EXPECT_EQ(evenly_chosen(9, 1), (std::vector<int>{8}));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ void add_observed(const Delivery& delivery, const Image<SrgbF>& base, SheetTiles
         tiles.observed.push_back({"last observed", tile_of(base)});
         return;
     }
-    for (int index : evenly(int(delivery.observed.size()), kMaxObserved)) {
+    for (int index : evenly_chosen(int(delivery.observed.size()), kMaxObserved)) {
         const ObservedFrame& frame = delivery.observed[std::size_t(index)];
         tiles.observed.push_back(
             {frame.unit == 0 ? std::string("last observed") : fmt::format("{:+.4g} u", frame.unit),
@@ -57,7 +57,7 @@ void add_forecast(const Delivery& delivery, const Image<SrgbF>& base, SheetTiles
                   const Progress& progress) {
     static const Mask kEverywhere;
     const Mask& where = delivery.specimen ? *delivery.specimen : kEverywhere;
-    const std::vector<int> shown = evenly(int(delivery.horizons.size()), kMaxForecast);
+    const std::vector<int> shown = evenly_chosen(int(delivery.horizons.size()), kMaxForecast);
     std::vector<Image<float>> changes;
     for (int index : shown) {
         report(progress, "deliver", std::int64_t(changes.size()), std::int64_t(shown.size()) + 1);
