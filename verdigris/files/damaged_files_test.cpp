@@ -39,16 +39,16 @@ void torture(const Bytes& valid) {
     const auto path = folder / "a";
     put_bytes(path, valid);
     ASSERT_TRUE(survives(path));
-    // chosen: every byte of the header part, and some 200 places behind it.
+    // chosen: every byte of the first 300, some 200 places behind them; one kind of damage each.
     const std::size_t step = std::max<std::size_t>(1, valid.size() / 200);
-    int refused = 0;
+    int refused = 0, turn = 0;
     for (std::size_t at = 0; at < valid.size(); at += at < 300 ? 1 : step) {
-        for (const int flip : {0xff, 0x80, 0x01}) {
-            Bytes broken = valid;
-            broken[at] ^= std::byte(flip);
-            put_bytes(path, broken);
-            refused += !survives(path);
-        }
+        constexpr int kFlips[] = {0xff, 0x80, 0x01};
+        Bytes broken = valid;
+        broken[at] ^= std::byte(kFlips[turn % 3]);
+        put_bytes(path, broken);
+        refused += !survives(path);
+        if (++turn % 4 != 0) continue;
         put_bytes(path, std::span(valid).first(at));
         refused += !survives(path);
     }

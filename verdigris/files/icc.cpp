@@ -44,12 +44,12 @@ struct IccProfile::State {
     // An own context: the default one would call handlers that the application may have set.
     cmsContext context = cmsCreateContext(nullptr, nullptr);
     cmsHPROFILE profile = nullptr, srgb = nullptr;
-    cmsColorSpaceSignature space{};
+    cmsUInt32Number space = 0;  // a number: damaged profiles hold values outside of the enum
 
     explicit State(std::span<const std::byte> data) {
         profile = cmsOpenProfileFromMemTHR(context, data.data(), cmsUInt32Number(data.size()));
         srgb = cmsCreate_sRGBProfileTHR(context);
-        if (profile) space = cmsGetColorSpace(profile);
+        if (profile) space = cmsUInt32Number(cmsGetColorSpace(profile));
     }
     State(const State&) = delete;
     State& operator=(const State&) = delete;
@@ -62,7 +62,7 @@ struct IccProfile::State {
     template <class P>
     Image<SrgbU16> convert(ImageView<const P> image) const {
         constexpr unsigned kBytes = sizeof(P) / 3;
-        const cmsUInt32Number format = space == cmsSigGrayData
+        const cmsUInt32Number format = space == cmsUInt32Number(cmsSigGrayData)
                                            ? gray_of_rgb(kBytes)
                                            : (kBytes == 1 ? TYPE_RGB_8 : TYPE_RGB_16);
         // For 16-bit input lcms would replace the curves by a coarse table; for 8 bit its fast path
@@ -96,7 +96,9 @@ IccProfile::~IccProfile() = default;
 
 bool IccProfile::usable_for(bool gray) const {
     if (!state_->profile || !state_->srgb) return false;
-    if (state_->space != cmsSigRgbData && !(gray && state_->space == cmsSigGrayData)) return false;
+    if (state_->space != cmsUInt32Number(cmsSigRgbData) &&
+        !(gray && state_->space == cmsUInt32Number(cmsSigGrayData)))
+        return false;
     try {
         const SrgbU8 probe{};
         srgb_from(ImageView<const SrgbU8>(&probe, 1, 1, 1));
@@ -113,7 +115,7 @@ bool IccProfile::is_srgb() const {
     const auto code = [](int i) { return std::uint16_t(i * 65535 / (kSteps - 1)); };
     for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
         const int r = i % kSteps, g = i / kSteps % kSteps, b = i / kSteps / kSteps;
-        if (state_->space == cmsSigGrayData && (r != g || g != b)) continue;
+        if (state_->space == cmsUInt32Number(cmsSigGrayData) && (r != g || g != b)) continue;
         lattice.push_back({code(r), code(g), code(b)});
     }
     const int count = int(lattice.size());

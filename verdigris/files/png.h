@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// PNG out: fast (libdeflate level 1 behind the Up filter, compressed in parallel strips), tagged
-// by pixel type: color maps carry sRGB, gAMA and cHRM; data maps carry none of them, because some
-// loaders apply gamma to tagged data. 16-bit samples are big-endian as [PNG] asks.
+// PNG out: fast (libdeflate level 1 behind the Up filter; rows are filtered in parallel, the
+// compression is one stream, because libdeflate cannot end a block on a byte: encode several maps
+// at once to use more cores). Tagged by pixel type: color maps carry sRGB, gAMA and cHRM; data
+// maps carry none of them, because some loaders apply gamma to tagged data. 16-bit samples are
+// big-endian as [PNG] asks.
 #pragma once
 
 #include <cstddef>

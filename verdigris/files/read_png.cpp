@@ -77,7 +77,7 @@ Header read_header(Reader& reader) {
     return h;
 }
 
-// [PNG, 13.13]: iCCP, then sRGB, then gAMA and cHRM.
+// [PNG, 11.3.3]: iCCP, then sRGB, then gAMA and cHRM.
 void read_color(Reader& reader, Decoded& out) {
     png_charp name = nullptr;
     png_bytep profile = nullptr;
