@@ -50,7 +50,7 @@ void write_manifest(const Delivery& delivery, const std::vector<fs::path>& files
     rest["unit"] = kUnitSentence;
     rest["horizons"] = delivery.horizons;
     rest["guards"] = guards_json(delivery.guards);
-    rest["origins"] = origins_json(*delivery.forecast);
+    rest["origins"] = origins_json(*delivery.forecast, *delivery.recipe);
     rest["noise"] = {{"tau", delivery.recipe->tau}};
     rest["files"] = file_entries(files, fs::absolute(file).parent_path());
 

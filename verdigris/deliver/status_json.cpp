@@ -32,9 +32,9 @@ Json guards_json(const Statuses& guards) {
     return list;
 }
 
-Json origins_json(const Forecast& forecast) {
+Json origins_json(const Forecast& forecast, const MaterialRecipe& recipe) {
     Json list = Json::array();
-    for (const MapOrigin& origin : map_origins(forecast)) {
+    for (const MapOrigin& origin : map_origins(forecast, recipe.observed_is_clean)) {
         list.push_back({{"map", origin.map},
                         {"origin", to_string(origin.origin)},
                         {"sentence", origin.sentence}});

@@ -13,6 +13,6 @@ namespace verdigris {
 /// [{"id", "severity", "sentence"}]
 nlohmann::ordered_json guards_json(const Statuses& guards);
 /// [{"map", "origin", "sentence"}]
-nlohmann::ordered_json origins_json(const Forecast& forecast);
+nlohmann::ordered_json origins_json(const Forecast& forecast, const MaterialRecipe& recipe);
 
 }  // namespace verdigris

@@ -116,7 +116,8 @@ Json scalars_json(const MaterialOptions& o, const MaterialRecipe& recipe) {
             {"micro_range", o.micro_range},
             {"tau", recipe.tau},
             {"normalizer", recipe.normalizer},
-            {"reference_horizon", recipe.reference_horizon}};
+            {"reference_horizon", recipe.reference_horizon},
+            {"observed_is_clean", recipe.observed_is_clean}};
 }
 
 Json people_json(const Delivery& delivery, PictureSize extent) {
@@ -132,7 +133,7 @@ Json people_json(const Delivery& delivery, PictureSize extent) {
              {{"name", delivery.forecast->forecaster},
               {"explanation", delivery.forecast->explanation}}},
             {"guards", guards_json(delivery.guards)},
-            {"origins", origins_json(*delivery.forecast)}};
+            {"origins", origins_json(*delivery.forecast, *delivery.recipe)}};
 }
 
 // "<" appears only inside JSON strings, where \u003c means the same and ends no element.

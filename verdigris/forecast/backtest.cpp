@@ -21,9 +21,11 @@ constexpr int kFlatWidth = 256;
 constexpr int kMinTrained = 3;    // chosen: two points always lie on a line
 constexpr int kMinForOrder2 = 8;  // chosen: the first origin then fits 3 coefficients to 4 frames
 // chosen: a gain below 2 % of the error cannot be seen and is within what the choice of pixels
-// does to it; twice its standard error over the origins is the usual 5 % level. On the real copper
+// does to it. Of the error above the noise, that is: both forecasts carry the noise of the last
+// frame and of the frame they are judged on, 2 sigma^2, and no forecast can gain on that. Where
+// nothing is above the noise, 5 % of the whole error stands in, so that the bar is never zero. Twice its standard error over the origins is the usual 5 % level. On the real copper
 // of the shared data (12 settings, docs/models/forecast.md) one standard error lets noise through.
-constexpr double kMinGain = 0.02, kMinStandardErrors = 2;
+constexpr double kMinGain = 0.02, kMinStandardErrors = 2, kMinExcess = 0.05;
 constexpr double kCreditMargin = 1.25;  // chosen: the noise itself is known to about 10 %
 
 /// The context with its pixels gathered into a plain rectangle: the affine family knows no place,
@@ -125,7 +127,7 @@ OriginScore score_origin(const FlatContext& flat, int m, const AffineOptions* af
     return score;
 }
 
-BacktestTrial judge(const std::vector<OriginScore>& scores, int frames_predicted) {
+BacktestTrial judge(const std::vector<OriginScore>& scores, int frames_predicted, double sigma) {
     BacktestTrial trial;
     double weight = 0, error = 0, held = 0, net = 0;
     for (const OriginScore& s : scores) {
@@ -145,7 +147,8 @@ BacktestTrial judge(const std::vector<OriginScore>& scores, int frames_predicted
     }
     const double count = double(scores.size());
     trial.standard_error = std::sqrt(spread * count / std::max(count - 1, 1.0)) / weight;
-    trial.beats_persistence = trial.improvement > kMinGain * held / weight &&
+    const double reducible = std::max(held / weight - 2 * sigma * sigma, kMinExcess * held / weight);
+    trial.beats_persistence = trial.improvement > kMinGain * reducible &&
                               trial.improvement > kMinStandardErrors * trial.standard_error;
     return trial;
 }
@@ -181,7 +184,7 @@ std::vector<BacktestTrial> run_backtest(const Context& context, const ChooseOpti
             scores.push_back(score_origin(flat, m, options_of, sigma));
         }
         BacktestTrial& trial = trials[std::size_t(i)];
-        trial = judge(scores, n - first);
+        trial = judge(scores, n - first, sigma);
         trial.row.forecaster = options_of ? affine_name(*options_of) : "persistence";
         if (options_of) trial.affine = *options_of;
     });

@@ -48,8 +48,11 @@ struct MapOrigin {
 /// All that stage 3 needs beside a frame; computed once per specimen.
 struct MaterialRecipe {
     MaterialOptions options;
-    Image<SrgbF> canvas;  ///< temporal median of the context: the clean state C
+    Image<SrgbF> canvas;  ///< the clean state C: temporal median of the context, unless given
+    /// False if the clean state was given: then the observed state carries coverage of its own.
+    bool observed_is_clean = true;
     /// Per pixel max(tau, |x(0) - C|): with it, coverage is 0 at horizon 0 and continuous after.
+    /// tau itself if the clean state was given.
     Image<float> dead_zone;
     double tau = 0;
     double normalizer = 1;  ///< s of Eq. (2); 1 if nothing changes
@@ -71,8 +74,16 @@ struct Material {
 };
 
 /// Median, dead-zone, normalizer, fill. O(pixels * n log n).
+/// `clean_state`, if given, is the surface before it aged (the start of the recording): coverage
+/// is then counted from there, and patina that was already observed is not taken for metal.
 MaterialRecipe prepare_material(const Context& context, const Forecast& forecast,
-                                const MaterialOptions& options = {});
+                                const MaterialOptions& options = {},
+                                const Image<SrgbF>* clean_state = nullptr);
+
+/// Has the specimen visibly left `start` by the end of the context? True if the mean change over
+/// the specimen is above 5 % of full scale and above 2 tau. chosen: 5 % is seen at a glance, and
+/// [Paper] Section 4 has its whole recordings move by 12 %.
+bool has_left(const Image<SrgbF>& start, const Context& context);
 
 /// The maps of a frame, into `out` (resized if needed, so that scrubbing allocates nothing).
 /// One fused pass over rows, SIMD, in parallel; same bytes at any thread count.
@@ -85,7 +96,7 @@ void materialize(const MaterialRecipe& recipe, const Forecast& forecast, double 
                  Material& out);
 
 /// What can be said about each map, honestly.
-std::vector<MapOrigin> map_origins(const Forecast& forecast);
+std::vector<MapOrigin> map_origins(const Forecast& forecast, bool observed_is_clean = true);
 std::string to_string(Origin origin);
 
 }  // namespace verdigris

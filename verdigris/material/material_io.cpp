@@ -97,6 +97,7 @@ MaterialRecipe recipe_from(const Json& json, const fs::path& folder) {
     recipe.tau = json.at("tau");
     recipe.normalizer = json.at("normalizer");
     recipe.reference_horizon = json.at("reference_horizon");
+    recipe.observed_is_clean = json.at("observed_is_clean");
     try {
         check_options(recipe.options);
     } catch (const Error& e) {
@@ -126,7 +127,8 @@ void write_recipe(const MaterialRecipe& recipe, const fs::path& folder) {
                         {"options", options},
                         {"tau", recipe.tau},
                         {"normalizer", recipe.normalizer},
-                        {"reference_horizon", recipe.reference_horizon}};
+                        {"reference_horizon", recipe.reference_horizon},
+                        {"observed_is_clean", recipe.observed_is_clean}};
     StagedFolder staged(folder);
     const fs::path& to = staged.path();
     write_array(to / "canvas.npy", recipe.canvas);

@@ -101,8 +101,22 @@ void check_inputs(const Context& context, const Forecast& forecast) {
 
 }  // namespace
 
+bool has_left(const Image<SrgbF>& start, const Context& context) {
+    constexpr double kVisible = 0.05;
+    const Image<float> change = change_map(temporal_median(context.frames), start);
+    const Mask active = active_mask(context);
+    double sum = 0;
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < change.pixel_count(); ++i) {
+        if (active.pixels()[i] == 0) continue;
+        sum += double(change.pixels()[i]);
+        ++count;
+    }
+    return count > 0 && sum / double(count) > std::max(kVisible, 2 * context.tau);
+}
+
 MaterialRecipe prepare_material(const Context& context, const Forecast& forecast,
-                                const MaterialOptions& options) {
+                                const MaterialOptions& options, const Image<SrgbF>* clean_state) {
     check_options(options);
     check_inputs(context, forecast);
     MaterialRecipe recipe;
@@ -112,8 +126,23 @@ MaterialRecipe prepare_material(const Context& context, const Forecast& forecast
     recipe.active = active_mask(context);
     recipe.luma_fill = fill_luma(recipe.canvas, context.specimen, context.clipped);
 
-    recipe.dead_zone = change_map(forecast.at(0), recipe.canvas);
     const float tau = float(context.tau);
+    if (clean_state != nullptr) {
+        if (!clean_state->same_size(recipe.canvas)) {
+            throw Error(ErrorCode::usage, "the clean state and the observed frames differ in size");
+        }
+        recipe.observed_is_clean = false;
+        recipe.canvas = clean_state->clone();
+        // A glint in the clean state says nothing about the metal under it.
+        constexpr float kSaturated = 0.98f;  // as observe/ masks clipped pixels
+        for (std::size_t i = 0; i < recipe.active.pixel_count(); ++i) {
+            const SrgbF& c = recipe.canvas.pixels()[i];
+            if (std::max({c.r, c.g, c.b}) >= kSaturated) recipe.active.pixels()[i] = 0;
+        }
+        recipe.dead_zone = Image<float>(recipe.canvas.width(), recipe.canvas.height());
+    } else {
+        recipe.dead_zone = change_map(forecast.at(0), recipe.canvas);
+    }
     for (float& d : recipe.dead_zone.pixels()) d = std::max(d, tau);
 
     const double asked =

@@ -13,8 +13,8 @@ namespace verdigris {
 namespace {
 
 // chosen: up to this many crop pixels the probe is the whole sample; beyond, bands of together
-// kProbePixels source pixels: 2e5 differences per sample, of which a few samples suffice.
-constexpr int kWholeProbe = 1 << 17, kProbePixels = 1 << 16;
+// kProbePixels source pixels: 5e4 differences per sample, of which a few samples suffice.
+constexpr int kWholeProbe = 1 << 17, kProbePixels = 1 << 14;
 constexpr int kBands = 8;
 
 // Makes a part of the samples: rows [begin, end) of the output.

@@ -27,7 +27,7 @@ struct BinningPlan {
 };
 
 /// The rows of a sample that the noise is measured on. Samples that are not kept are made there
-/// only: of 1080p60 this is 6 % of a frame, and binning costs next to nothing.
+/// only: of 1080p this is 1 % of a frame, and binning costs next to nothing.
 struct ProbeRows {
     std::vector<std::pair<int, int>> bands;  ///< [begin, end) rows of the sample
     int rows = 0;                            ///< all together
