@@ -132,6 +132,13 @@ std::vector<double> ForecastArguments::sorted_horizons() const {
 
 void MaterialArguments::add(CLI::App& command) {
     MaterialOptions& o = options;
+    command
+        .add_option(
+            "--clean-state", clean_state,
+            "What counts as clean metal: context (the paper: the observed state), start "
+            "(the start of the recording), auto (start if the specimen has visibly left it)")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"auto", "context", "start"}));
     const std::string group = "Material (defaults are the paper's)";
     const auto number = [&](const char* name, double& value, const char* help) {
         command.add_option(name, value, help)->capture_default_str()->group(group);

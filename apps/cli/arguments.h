@@ -44,6 +44,7 @@ struct ForecastArguments {
 /// Stage 3: every constant of the material, with the paper's value as default.
 struct MaterialArguments {
     MaterialOptions options;
+    std::string clean_state = "auto";  ///< auto, context or start
     void add(CLI::App& command);
     void check() const;  ///< throws Error{usage}
 };

@@ -27,13 +27,12 @@ void run(Session& session, const Arguments& a) {
     a.material.check();
     const Json options = {{"observe", json_of(a.observe.options())},
                           {"forecast", json_of(a.forecast)},
-                          {"material", json_of(a.material.options)}};
+                          {"material", json_of(a.material)}};
     check_output_folder(output, input, session.force);
 
     const Observation observation = run_observe(session, input, output, a.observe);
     const SavedForecast saved = run_forecast(session, observation, a.forecast);
-    const MaterialRecipe recipe =
-        prepare_material(saved.context, saved.forecast, a.material.options);
+    const MaterialRecipe recipe = run_material(session, observation, saved, a.material);
 
     StagedFolder staged(output);
     write_forecast(saved, staged.path() / kForecastFolder);
@@ -48,7 +47,9 @@ void run(Session& session, const Arguments& a) {
                             observation.height(), observation.noise.sigma * 100));
     session.say(fmt::format("          {}", observation.crop.sentence));
     session.say(fmt::format("forecast  {}", saved.forecast.explanation));
-    for (const Status& s : observation.notes) session.tell(s);
+    for (const Status& s : observation.notes) {
+        if (s.sentence != observation.crop.sentence) session.tell(s);
+    }
     for (const Status& s : saved.forecast.guards) session.tell(s);
     session.say("");
     session.say(fmt::format("Look at   {}", (output / kSheetFile).string()));

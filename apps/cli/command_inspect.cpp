@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "arguments.h"
 #include "commands.h"
 #include "json_of.h"
@@ -41,9 +43,13 @@ void run(Session& session, const Arguments& a) {
     line("exposure", fmt::format("drifts by {:.2f} %, white balance by {:.2f} %",
                                  i.exposure_drift * 100, i.white_balance_drift * 100));
     line("clipped", fmt::format("{:.2f} % of the specimen", i.clipped_share * 100));
-    for (const Status& s : info.notes) session.tell(s);
     for (const Status& s : i.findings) session.tell(s);
-    line("verdict", fmt::format("{}: {}", to_string(i.verdict), i.verdict_sentence));
+    for (const Status& s : info.notes) {
+        const bool told = std::any_of(i.findings.begin(), i.findings.end(),
+                                      [&](const Status& f) { return f.sentence == s.sentence; });
+        if (!told) session.tell(s);
+    }
+    line("verdict", i.verdict_sentence);
     session.result({{"recording", json_of(info)}, {"inspection", json_of(i)}});
 }
 

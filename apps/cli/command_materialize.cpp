@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "json_of.h"
 #include "stages.h"
+#include "verdigris/observe/observation_io.h"
 
 namespace verdigris::cli {
 namespace {
@@ -17,12 +18,13 @@ void run(Session& session, const Arguments& a) {
     const std::filesystem::path output = a.folder;
     a.material.check();
     require_stage(output, kForecastFolder, "forecast");
+    require_stage(output, kObservedFolder, "observe");
+    const Observation observation = read_observation(output / kObservedFolder);
     const SavedForecast saved = read_forecast(output / kForecastFolder);
-    const MaterialRecipe recipe =
-        prepare_material(saved.context, saved.forecast, a.material.options);
+    const MaterialRecipe recipe = run_material(session, observation, saved, a.material);
     StagedFolder staged(output);
     write_material_stage(saved, recipe, staged.path() / kMaterialFolder);
-    write_options(staged.path() / kMaterialFolder, json_of(a.material.options));
+    write_options(staged.path() / kMaterialFolder, json_of(a.material));
     staged.commit();
     session.say(fmt::format("material  full coverage at a change of {:.2f} % beyond the dead-zone",
                             recipe.normalizer * 100));

@@ -22,7 +22,9 @@ void run(Session& session, const Arguments& a) {
     session.say(fmt::format("          {}", o.crop.sentence));
     session.say(fmt::format("          noise {:.3f} %, dead-zone tau {:.3f} %", o.noise.sigma * 100,
                             o.noise.tau * 100));
-    for (const Status& s : o.notes) session.tell(s);
+    for (const Status& s : o.notes) {
+        if (s.sentence != o.crop.sentence) session.tell(s);
+    }
     session.say(fmt::format("Try next  verdigris forecast {}", a.output));
     session.result(json_of(o));
 }

@@ -141,8 +141,10 @@ Json json_of(const ForecastArguments& a) {
             {"ridge_k", a.ridge_k}, {"fit_pixels", a.fit_pixels},      {"clamp", !a.no_clamp}};
 }
 
-Json json_of(const MaterialOptions& o) {
-    return {{"coverage_exponent", o.coverage_exponent},
+Json json_of(const MaterialArguments& arguments) {
+    const MaterialOptions& o = arguments.options;
+    return {{"clean_state", arguments.clean_state},
+            {"coverage_exponent", o.coverage_exponent},
             {"normalizer_percentile", o.normalizer_percentile},
             {"roughness_clean", o.roughness_clean},
             {"roughness_patina", o.roughness_patina},

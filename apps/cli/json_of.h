@@ -26,7 +26,7 @@ Json json_of(const Observation& observation);
 Json json_of(const Forecast& forecast);
 Json json_of(const ObserveOptions& options);
 Json json_of(const ForecastArguments& arguments);
-Json json_of(const MaterialOptions& options);
+Json json_of(const MaterialArguments& arguments);
 
 std::string to_string(TimeSource source);
 

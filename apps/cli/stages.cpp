@@ -14,6 +14,7 @@
 #include "verdigris/forecast/choose.h"
 #include "verdigris/forecast/guards.h"
 #include "verdigris/material/material_io.h"
+#include "verdigris/observe/early_state.h"
 #include "verdigris/observe/observation_io.h"
 
 namespace verdigris::cli {
@@ -159,6 +160,23 @@ SavedForecast run_forecast(Session& session, const Observation& observation,
     if (!session.force) refuse_if_needed(saved.forecast.guards);
     report(session.progress(), "forecast", 1, 1);
     return saved;
+}
+
+MaterialRecipe run_material(Session& session, const Observation& observation,
+                            const SavedForecast& saved, const MaterialArguments& arguments) {
+    if (arguments.clean_state == "context") {
+        return prepare_material(saved.context, saved.forecast, arguments.options);
+    }
+    const Image<SrgbF> start = early_state(observation);
+    if (arguments.clean_state == "auto" && !has_left(start, saved.context)) {
+        return prepare_material(saved.context, saved.forecast, arguments.options);
+    }
+    if (arguments.clean_state == "auto") {
+        session.say(
+            "  note: the specimen has visibly left the state the recording began in; that "
+            "state counts as clean metal (--clean-state context: the last one does)");
+    }
+    return prepare_material(saved.context, saved.forecast, arguments.options, &start);
 }
 
 void write_material_stage(const SavedForecast& saved, const MaterialRecipe& recipe,

@@ -40,6 +40,10 @@ Observation run_observe(Session& session, const std::filesystem::path& input,
 SavedForecast run_forecast(Session& session, const Observation& observation,
                            const ForecastArguments& arguments);
 
+/// The recipe of stage 3. Tells the user if patina that was already observed counts as patina.
+MaterialRecipe run_material(Session& session, const Observation& observation,
+                            const SavedForecast& saved, const MaterialArguments& arguments);
+
 /// Everything in `staged`, ready to commit. Returns the manifest as JSON.
 Json run_deliver(Session& session, const Observation& observation, const SavedForecast& saved,
                  const MaterialRecipe& recipe, const Json& options, StagedFolder& staged);

@@ -90,7 +90,8 @@ void add_maps(const Delivery& delivery, SheetTiles& tiles) {
     const double horizon = trusted_horizon(delivery);
     Material material;
     materialize(*delivery.recipe, *delivery.forecast, horizon, material);
-    const std::vector<MapOrigin> origins = map_origins(*delivery.forecast, delivery.recipe->observed_is_clean);
+    const std::vector<MapOrigin> origins =
+        map_origins(*delivery.forecast, delivery.recipe->observed_is_clean);
     const auto add = [&](const char* name, const char* map, Image<SrgbU8> picture) {
         tiles.maps.push_back({name, origin_of(origins, map), std::move(picture)});
     };

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "verdigris/forecast/forecast.h"
+#include "verdigris/material/material.h"
 #include "verdigris/status.h"
 
 namespace verdigris {

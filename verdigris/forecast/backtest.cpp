@@ -23,8 +23,9 @@ constexpr int kMinForOrder2 = 8;  // chosen: the first origin then fits 3 coeffi
 // chosen: a gain below 2 % of the error cannot be seen and is within what the choice of pixels
 // does to it. Of the error above the noise, that is: both forecasts carry the noise of the last
 // frame and of the frame they are judged on, 2 sigma^2, and no forecast can gain on that. Where
-// nothing is above the noise, 5 % of the whole error stands in, so that the bar is never zero. Twice its standard error over the origins is the usual 5 % level. On the real copper
-// of the shared data (12 settings, docs/models/forecast.md) one standard error lets noise through.
+// nothing is above the noise, 5 % of the whole error stands in, so that the bar is never zero.
+// Twice its standard error over the origins is the usual 5 % level. On the real copper of the
+// shared data (12 settings, docs/models/forecast.md) one standard error lets noise through.
 constexpr double kMinGain = 0.02, kMinStandardErrors = 2, kMinExcess = 0.05;
 constexpr double kCreditMargin = 1.25;  // chosen: the noise itself is known to about 10 %
 
@@ -147,7 +148,8 @@ BacktestTrial judge(const std::vector<OriginScore>& scores, int frames_predicted
     }
     const double count = double(scores.size());
     trial.standard_error = std::sqrt(spread * count / std::max(count - 1, 1.0)) / weight;
-    const double reducible = std::max(held / weight - 2 * sigma * sigma, kMinExcess * held / weight);
+    const double reducible =
+        std::max(held / weight - 2 * sigma * sigma, kMinExcess * held / weight);
     trial.beats_persistence = trial.improvement > kMinGain * reducible &&
                               trial.improvement > kMinStandardErrors * trial.standard_error;
     return trial;

@@ -16,7 +16,8 @@ std::string to_string(Origin origin) {
 }
 
 std::vector<MapOrigin> map_origins(const Forecast& forecast, bool observed_is_clean) {
-    const std::string clean = observed_is_clean ? "the observed state" : "the start of the recording";
+    const std::string clean =
+        observed_is_clean ? "the observed state" : "the start of the recording";
     const bool law = forecast.is_trajectory();
     const bool held = law && forecast.trajectory.law.order == 0;
     const std::string frame =
@@ -34,12 +35,13 @@ std::vector<MapOrigin> map_origins(const Forecast& forecast, bool observed_is_cl
          "a choice."},
         {"roughness", Origin::modeled,
          "Between a polished and a fully patinated value, by how far the color has moved from " +
-             clean + ". That oxide is rougher than polished metal is physics; the two values "
-         "and the curve between them were set by eye."},
+             clean +
+             ". That oxide is rougher than polished metal is physics; the two values "
+             "and the curve between them were set by eye."},
         {"metallic", Origin::modeled,
          "From metal to oxide by the same change of color. That the clean surface conducts and "
-         "the patina does not is a fact of the materials; that " + clean +
-             " counts as clean is an assumption."},
+         "the patina does not is a fact of the materials; that " +
+             clean + " counts as clean is an assumption."},
         {"height", Origin::modeled,
          "Smoothed brightness, raised where patina is forecast, on a scale from 0 to 1 without "
          "units. No depth was measured."},

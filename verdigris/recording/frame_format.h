@@ -20,16 +20,16 @@ enum class Primaries { bt709, bt601_525, bt601_625, bt2020, display_p3 };
 struct FrameFormat {
     PixelModel model{PixelModel::rgb};
     SampleType type{SampleType::u8};
-    int bits = 8;                    ///< significant bits: 8, 10, 12, 16; f32 samples are unit scale
-    bool full_range = true;          ///< else 16..235 (16..240 for chroma), scaled to `bits`
-    double kr = 0.2126, kb = 0.0722; ///< luma weights of the YUV matrix
+    int bits = 8;            ///< significant bits: 8, 10, 12, 16; f32 samples are unit scale
+    bool full_range = true;  ///< else 16..235 (16..240 for chroma), scaled to `bits`
+    double kr = 0.2126, kb = 0.0722;             ///< luma weights of the YUV matrix
     int chroma_shift_x = 0, chroma_shift_y = 0;  ///< 4:2:0 is 1, 1
     double chroma_x = 0, chroma_y = 0.5;  ///< siting of a chroma sample in luma pixels from the
                                           ///< first luma sample: left-sited 4:2:0 is (0, 0.5)
     Transfer transfer{Transfer::display};
     Primaries primaries{Primaries::bt709};
     int coded_width = 0, coded_height = 0;  ///< before rotation
-    int rotation = 0;                ///< degrees clockwise to turn the coded frame for showing
+    int rotation = 0;  ///< degrees clockwise to turn the coded frame for showing
 };
 
 /// Samples of one plane. For interleaved RGB there is one plane with three channels.

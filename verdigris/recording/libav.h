@@ -61,7 +61,8 @@ inline std::string words(int error) {
 /// std::atomic<int> that its `opaque` points to: some damage is only ever mentioned there.
 inline void take_log(void* who, int level, const char* text, va_list) {
     // "concealing 20 DC, 20 AC ...": the only trace of some holes, and said as mere information.
-    const bool concealed = level == AV_LOG_INFO && text && std::strncmp(text, "concealing", 10) == 0;
+    const bool concealed =
+        level == AV_LOG_INFO && text && std::strncmp(text, "concealing", 10) == 0;
     if (!who || (level > AV_LOG_ERROR && !concealed)) return;
     if (*static_cast<const AVClass* const*>(who) != avcodec_get_class()) return;
     if (void* count = static_cast<AVCodecContext*>(who)->opaque) {

@@ -25,9 +25,9 @@ enum class TimeSource { sidecar, exif, container, file_order };
 struct RecordingInfo {
     std::filesystem::path path;
     RecordingKind kind{};
-    int width = 0, height = 0;      ///< as shown: rotation and EXIF orientation applied
-    FrameFormat format;             ///< of the decoded planes
-    std::vector<double> times;      ///< seconds from the first frame, non-decreasing, one per frame
+    int width = 0, height = 0;  ///< as shown: rotation and EXIF orientation applied
+    FrameFormat format;         ///< of the decoded planes
+    std::vector<double> times;  ///< seconds from the first frame, non-decreasing, one per frame
     TimeSource time_source{};
     std::string container, codec;   ///< "mov,mp4 / h264", "png", ...
     std::string color_description;  ///< "BT.709 limited range, 8 bit", "sRGB (assumed)", ...
@@ -39,8 +39,8 @@ struct RecordingInfo {
 /// One decoded frame: planes that stay valid while `owner` lives. Rotation is NOT applied yet:
 /// see srgb_from_planes in to_srgb.h.
 struct Frame {
-    int index = 0;         ///< into RecordingInfo::times
-    double seconds = 0;    ///< RecordingInfo::times[index]
+    int index = 0;       ///< into RecordingInfo::times
+    double seconds = 0;  ///< RecordingInfo::times[index]
     PlaneSet planes;
     std::shared_ptr<const void> owner;
 };
@@ -48,9 +48,9 @@ struct Frame {
 /// What was lost on the way. A broken tail costs the broken frames only.
 struct DecodeReport {
     int decoded = 0;
-    int lost = 0;           ///< expected from the time stamps, but not decodable
-    int first_lost = -1;    ///< index of the first lost frame, -1 if none
-    std::string reason;     ///< "the file ends in the middle of frame 41", "" if nothing was lost
+    int lost = 0;         ///< expected from the time stamps, but not decodable
+    int first_lost = -1;  ///< index of the first lost frame, -1 if none
+    std::string reason;   ///< "the file ends in the middle of frame 41", "" if nothing was lost
 };
 
 /// Decodes frames in order.
