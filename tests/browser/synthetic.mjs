@@ -49,7 +49,8 @@ export function makeDocument({ width = 37, height = 29, order = 1, clamp = true,
     const x = i % width, y = Math.floor(i / width);
     const inside = x > 2 && y > 2 && x < width - 3 && y < height - 2 ? 1 : 0;
     for (let k = 0; k < 3; k++) {
-      const b = 0.15 + 0.6 * next();
+      // Some channels start at the very border, with drifts both ways: in place or back inside.
+      const b = i % 11 === 3 ? (next() < 0.5 ? 0 : 1) : 0.15 + 0.6 * next();
       base.push(b);
       canvas.push(b + 0.02 * (next() - 0.5));
       rate.push(inside ? 0.04 * (next() - 0.6) : 0);

@@ -15,6 +15,12 @@ export function ageText(age: number): string {
   return `forecast, +${units} accelerated units`;
 }
 
+/** The same for a corner of the picture. */
+export function shortAge(age: number): string {
+  if (Math.abs(age) < 0.05) return "last observed";
+  return age < 0 ? `observed, \u2212${(-age).toFixed(1)}` : `forecast, +${age.toFixed(1)}`;
+}
+
 export class AgeSlider {
   private readonly input = element<HTMLInputElement>("slider");
   private readonly readout = element<HTMLOutputElement>("readout");

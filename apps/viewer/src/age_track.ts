@@ -11,25 +11,26 @@ export function layTrack(doc: ViewerDocument, range: AgeRange, go: (unit: number
   // The thumb's center runs from half a thumb to the width less half a thumb.
   const at = (unit: number) => `calc(var(--thumb) / 2 + (100% - var(--thumb)) * ${(unit - first) / span})`;
 
-  const zone = (name: string, from: number, to: number, label: string) => {
+  const captions: { span: HTMLElement; labels: string[] }[] = [];
+  const zone = (name: string, from: number, to: number, ...labels: string[]) => {
     if (to <= from) return;
     const div = document.createElement("div"), caption = document.createElement("span");
     div.className = name;
     div.style.left = at(from);
     div.style.right = `calc(100% - (${at(to)}))`;
-    caption.textContent = label;
+    captions.push({ span: caption, labels });
     div.append(caption);
     element("zones").append(div);
   };
   zone("observed", first, 0, "observed");
   zone("forecast", 0, Math.min(trust, last), "forecast");
-  zone("beyond", Math.max(trust, 0), last, "beyond the trust limit");
+  zone("beyond", Math.max(trust, 0), last, "beyond the trust limit", "trust limit");
   const now = document.createElement("div");
   now.className = "now";
   now.style.left = at(0);
   element("zones").append(now);
-  element("caution").textContent = `Caution: past +${unitText(trust)}, twice the ${doc.context} units ` +
-    "the forecast was fitted on, this extrapolates further than the observation supports.";
+  element("caution").textContent = `Caution: past +${unitText(trust)}, twice the ${doc.context} ` +
+    "units fitted, it goes further than the observation supports.";
 
   const ticks: { button: HTMLButtonElement; unit: number; rank: number }[] = [];
   const tick = (unit: number, label: string, spoken: string, rank: number) => {
@@ -52,6 +53,12 @@ export function layTrack(doc: ViewerDocument, range: AgeRange, go: (unit: number
 
   // Labels that would overlap give way, the less important first; their marks stay clickable.
   const makeRoom = () => {
+    for (const { span, labels } of captions) {
+      for (const label of [...labels, ""]) {
+        span.textContent = label;
+        if (span.scrollWidth <= span.clientWidth) break;
+      }
+    }
     const width = element("track").clientWidth, taken: [number, number][] = [];
     for (const { button, unit } of [...ticks].sort((a, b) => a.rank - b.rank || a.unit - b.unit)) {
       const label = button.firstElementChild as HTMLElement;

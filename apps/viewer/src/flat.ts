@@ -44,8 +44,10 @@ export class FlatView {
   }
 
   draw(bake: Bake, view: MapView, width: number, height: number): void {
-    const fit = (this.aspect * height) / width, margin = 0.92;
-    this.fit.set(fit > 1 ? margin : margin * fit, fit > 1 ? margin / fit : margin);
+    // Room for the legend below and the badge above: 52 pixels each.
+    const tall = Math.max(1 - 104 / height, 0.5), wide = 0.94;
+    const across = Math.min(wide, (tall * height * this.aspect) / width);
+    this.fit.set(across, (across * width) / this.aspect / height);
     this.scale.copy(this.fit).multiplyScalar(this.zoom);
     this.keepInSight();
     const u = this.material.uniforms;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page: document in, stage up, one redraw per change.
 import * as THREE from "three";
-import { AgeSlider, ageText } from "./age_slider";
+import { AgeSlider, ageText, shortAge } from "./age_slider";
 import { Bake, type MapName } from "./bake";
 import { ButtonRow } from "./buttons";
 import { PageFault, readDocument, type ViewerDocument } from "./data";
@@ -95,7 +95,7 @@ async function start(api: TestApi): Promise<void> {
     const badge = element("badge");
     badge.textContent = age >= 0.05 ? "forecast" : "observed";
     badge.className = age >= 0.05 ? (age > range.trust ? "beyond" : "forecast") : "observed";
-    wipe.label(ageText(age));
+    wipe.label(shortAge(age));
     say(() => ageText(age), 600);
     redraw();
   });

@@ -104,6 +104,7 @@ export function makeShape(shape: Shape, aspect: number): THREE.BufferGeometry {
   const length = aspect >= 1 ? 2.3 : 2.3 * aspect, height = length / aspect;
   if (shape === "plane") return sheet(profileOf(() => 0, length, 1), length, height, 24);
   // An S, as cladding sweeps around a building: convex and hollow in one piece.
-  const wave = profileOf((s) => 0.95 * Math.cos(2 * Math.PI * (s - 0.08)), length * 1.18, 96);
-  return sheet(wave, length * 1.18, height * 1.18, 96);
+  const by = Math.min(1.18, 2.1 / height);   // the bend takes a fifth of the width
+  const wave = profileOf((s) => 0.95 * Math.cos(2 * Math.PI * (s - 0.08)), length * by, 96);
+  return sheet(wave, length * by, height * by, 96);
 }
