@@ -28,7 +28,7 @@ export function encodeBlob(values, channels, width, height) {
     decoded: q.map((v) => lo + scale * v) };
 }
 
-function picture(rgb, width, height) {
+export function picture(rgb, width, height) {
   const png = new PNG({ width, height });
   for (let i = 0; i < width * height; i++) {
     for (let k = 0; k < 3; k++) png.data[i * 4 + k] = Math.round(Math.min(Math.max(rgb[i * 3 + k], 0), 1) * 255);
@@ -37,6 +37,11 @@ function picture(rgb, width, height) {
   return "data:image/png;base64," + PNG.sync.write(png).toString("base64");
 }
 
+export const kMaterial = { coverage_exponent: 0.85, roughness_clean: 0.16, roughness_patina: 0.88,
+  roughness_gamma: 0.75, micro_roughness: 0.06, metallic_patina: 0.03, metallic_clean: 0.97,
+  metallic_gamma: 1.25, height_patina_weight: 0.45, height_sigma: 1.0, micro_sigma: 2.0,
+  micro_range: 0.02, normal_scale: 2.6, normal_gain: 8, tau: 0.01, normalizer: 0.2, reference_horizon: 20 };
+
 export function makeDocument({ width = 37, height = 29, order = 1, clamp = true, kind = "law", title = "made plate" }) {
   const next = random(7 + order), n = width * height, reach = 9;
   const base = [], rate = [], curvature = [], canvas = [], zone = [], active = [], fill = [];
@@ -44,7 +49,8 @@ export function makeDocument({ width = 37, height = 29, order = 1, clamp = true,
     const x = i % width, y = Math.floor(i / width);
     const inside = x > 2 && y > 2 && x < width - 3 && y < height - 2 ? 1 : 0;
     for (let k = 0; k < 3; k++) {
-      const b = 0.15 + 0.6 * next();
+      // Some channels start at the very border, with drifts both ways: in place or back inside.
+      const b = i % 11 === 3 ? (next() < 0.5 ? 0 : 1) : 0.15 + 0.6 * next();
       base.push(b);
       canvas.push(b + 0.02 * (next() - 0.5));
       rate.push(inside ? 0.04 * (next() - 0.6) : 0);
@@ -55,10 +61,7 @@ export function makeDocument({ width = 37, height = 29, order = 1, clamp = true,
     active.push(inside && !(x > 14 && x < 18) ? 1 : 0);
     fill.push(x > 14 && x < 18 ? 0.4 : -1);
   }
-  const material = { coverage_exponent: 0.85, roughness_clean: 0.16, roughness_patina: 0.88,
-    roughness_gamma: 0.75, micro_roughness: 0.06, metallic_patina: 0.03, metallic_clean: 0.97,
-    metallic_gamma: 1.25, height_patina_weight: 0.45, height_sigma: 1.0, micro_sigma: 2.0,
-    micro_range: 0.02, normal_scale: 2.6, normal_gain: 8, tau: 0.01, normalizer: 0.2, reference_horizon: 20 };
+  const material = { ...kMaterial };
   const put = (values, channels) => encodeBlob(values, channels, width, height);
   const b = { base: put(base, 3), rate: put(rate, 3), curvature: put(curvature, 3), canvas: put(canvas, 3),
     zone: put(zone, 1), active: put(active, 1), fill: put(fill, 1) };

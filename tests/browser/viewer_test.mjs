@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The viewer in a real browser, on made documents:  node viewer_test.mjs TEMPLATE [SCREENSHOT_DIR]
 import assert from "node:assert/strict";
-import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
-import { tmpdir } from "node:os";
 import path from "node:path";
 import { executable, openPage, readMap, withBrowser } from "./browser.mjs";
+import { suite } from "./suite.mjs";
 import { makeDocument, reference } from "./synthetic.mjs";
 
 if (!executable) {
   console.log("skipped: no Chromium found (set VERDIGRIS_CHROMIUM)");
   process.exit(77);
 }
-const template = await readFile(process.argv[2], "utf8");
 const shots = process.argv[3];
-const folder = await mkdtemp(path.join(tmpdir(), "verdigris-viewer-"));
-let failures = 0;
-
-async function page_of(doc, name) {
-  const file = path.join(folder, `${name}.html`);
-  const json = JSON.stringify(doc).replaceAll("<", "\\u003c");
-  await writeFile(file, template.replace("@@VERDIGRIS_DATA@@", () => json));
-  return file;
-}
-async function test(name, work) {
-  try {
-    await work();
-    console.log(`ok    ${name}`);
-  } catch (error) {
-    failures++;
-    console.log(`FAIL  ${name}\n      ${error.message}`);
-  }
-}
+const { page_of, test, done } = await suite(process.argv[2]);
 
 await withBrowser(async (context) => {
   const open = async (options, name) => {
@@ -40,7 +21,7 @@ await withBrowser(async (context) => {
 
   const cases = [["linear", { order: 1 }], ["linear unclamped", { order: 1, clamp: false }],
     ["accelerating", { order: 2 }], ["held", { order: 0 }], ["tall", { order: 1, width: 12, height: 51 }],
-    ["stack of frames", { kind: "frames" }]];
+    ["stack of frames", { kind: "frames" }], ["accelerating unclamped", { order: 2, clamp: false }]];
   for (const [name, options] of cases) {
     await test(`maps agree with the equations: ${name}`, async () => {
       const { page, made, complaints, requests } = await open(options, name.replaceAll(" ", "_"));
@@ -68,7 +49,8 @@ await withBrowser(async (context) => {
   await test("observed ages crossfade and carry no coverage", async () => {
     const { page, made } = await open({}, "observed");
     const half = await readMap(page, -4, "albedo");
-    const expected = made.truth.base.map((v, i) => v - 4 * made.truth.rate[i]);
+    const older = made.truth.base.map((v, i) => Math.min(Math.max(v - 8 * made.truth.rate[i], 0), 1));
+    const expected = made.truth.base.map((v, i) => (v + older[i]) / 2);
     const worst = half.data.reduce((w, v, i) => Math.max(w, Math.abs(v - expected[i])), 0);
     assert.ok(worst < 3 / 255, `off by ${worst}`);
     assert.equal(Math.max(...(await readMap(page, -4, "coverage")).data), 0);
@@ -91,9 +73,24 @@ await withBrowser(async (context) => {
     await page.keyboard.press("Home");
     assert.match(await slider.getAttribute("aria-valuetext"), /observed, 8\.0 units before/);
     await page.keyboard.press("ArrowRight");
-    assert.match(await slider.getAttribute("aria-valuetext"), /7\.[0-9] units before/);
+    assert.match(await slider.getAttribute("aria-valuetext"), /7\.5 units before/);
+    await page.evaluate(() => window.verdigris.setAge(12.34));
+    assert.equal(await page.evaluate(() => window.verdigris.age), 12.34);
     assert.doesNotMatch(await page.locator("body").innerText(), /\b(years?|months?|days?)\b/i);
     assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+  await test("past the trust limit the page says so, and not before", async () => {
+    const made = makeDocument({});
+    made.doc.context = 4;
+    const { page } = await openPage(context, await page_of(made.doc, "trust"));
+    for (const [age, beyond] of [[-3, false], [0, false], [8, false], [8.1, true], [20, true]]) {
+      await page.evaluate((a) => window.verdigris.setAge(a), age);
+      assert.equal(await page.locator("#caution").isVisible(), beyond, `at ${age}`);
+    }
+    assert.match(await page.locator("#caution").textContent(), /past \+8, twice the 4 units/);
+    assert.ok(await page.locator("#zones .beyond").isVisible());
     await page.close();
   });
 
@@ -131,6 +128,17 @@ await withBrowser(async (context) => {
       assert.equal(await button.getAttribute("aria-pressed"), "true");
       await look(map);
     }
+    assert.match(await page.locator("#legend").innerText(), /as observed\s+fully changed/);
+    await page.locator("#view").hover();
+    await page.mouse.wheel(0, -1500);
+    await look("zoomed map");
+    await page.locator("#view").focus();
+    await page.keyboard.press("ArrowLeft");
+    await look("moved map");
+    await page.keyboard.press("0");
+    await page.evaluate(() => document.activeElement.blur());
+    await page.waitForTimeout(250);
+    assert.ok((await canvas.screenshot()).equals(seen.at(-3)), "0 does not show all of the map again");
     await page.keyboard.press("1");
     await page.keyboard.press("w");
     assert.equal(await page.locator("#wipe-toggle").getAttribute("aria-pressed"), "true");
@@ -169,6 +177,16 @@ await withBrowser(async (context) => {
     assert.equal(await page.locator("#title").textContent(), title);
     assert.equal(await page.evaluate(() => window.hacked), undefined);
     assert.deepEqual(complaints, []);
+    // Even if markup got in, the page's policy runs nothing but the viewer's own script.
+    await page.evaluate(() => {
+      document.body.insertAdjacentHTML("beforeend", `<img src=x onerror="window.hacked=1">`);
+      const script = document.createElement("script");
+      script.textContent = "window.hacked=2";
+      document.body.append(script);
+    });
+    await page.waitForTimeout(300);
+    assert.equal(await page.evaluate(() => window.hacked), undefined);
+    assert.ok(complaints.some((c) => /Content Security Policy/.test(c)), complaints.join("; "));
     await page.close();
   });
 
@@ -176,7 +194,8 @@ await withBrowser(async (context) => {
     const { doc } = makeDocument({});
     const damaged = structuredClone(doc);
     damaged.trajectory.rate.data = damaged.canvas.data.slice(0, 40);
-    for (const [bad, pattern] of [[damaged, /./], [{ format: "other" }, /another viewer/]]) {
+    for (const [bad, pattern] of [[damaged, /damaged/], [{ ...doc, horizons: undefined }, /damaged/],
+      [{ format: "other" }, /another viewer/]]) {
       const { page } = await openPage(context, await page_of(bad, "bad"));
       await page.locator("#fault").waitFor({ state: "visible", timeout: 5000 });
       assert.match(await page.locator("#fault").textContent(), pattern);
@@ -198,9 +217,12 @@ await withBrowser(async (context) => {
     assert.ok(overflow <= 0, `${overflow} pixels wider than the screen`);
     for (const id of ["#slider", "#play", "#view"]) assert.ok(await page.locator(id).isVisible());
     assert.ok((await page.locator("#stage").boundingBox()).height > 250);
+    const reach = await page.evaluate(() => [...document.querySelectorAll("button, input")]
+      .filter((e) => e.offsetParent && !e.closest("#maps"))
+      .every((e) => e.getBoundingClientRect().right <= window.innerWidth + 8));
+    assert.ok(reach, "a control lies outside the screen");
     if (shots) await page.screenshot({ path: path.join(shots, "phone.png") });
     await page.close();
   });
 });
-await rm(folder, { recursive: true, force: true });
-if (failures) { console.log(`${failures} failures`); process.exit(1); }
+await done();

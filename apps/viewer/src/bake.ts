@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bakes the maps of one age into textures: a few full-screen passes, run only when the age changes.
+// Float where the device can draw to it (EXT_color_buffer_float: nearly all), else half, else bytes.
 import * as THREE from "three";
 import { type MaterialConstants } from "./data";
 import { type Specimen } from "./specimen";
@@ -20,6 +21,17 @@ function pass(fragmentShader: string, uniforms: Uniforms): THREE.RawShaderMateri
 const triangle = new THREE.BufferGeometry().setAttribute(
   "position", new THREE.BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
 
+/** What this device can draw into. Maps in half float: 8-bit normals show as steps on bare metal. */
+function drawable(renderer: THREE.WebGLRenderer):
+    { float: THREE.TextureDataType; map: THREE.TextureDataType } {
+  if (renderer.extensions.has("EXT_color_buffer_float")) {
+    return { float: THREE.FloatType, map: THREE.HalfFloatType };
+  }
+  const half = renderer.extensions.has("EXT_color_buffer_half_float");
+  const type = half ? THREE.HalfFloatType : THREE.UnsignedByteType;
+  return { float: type, map: type };
+}
+
 export class Bake {
   /** What a MeshStandardMaterial reads. */
   readonly albedo: THREE.WebGLRenderTarget;
@@ -29,6 +41,7 @@ export class Bake {
   readonly frame: THREE.WebGLRenderTarget;
   age = Number.NaN;
 
+  private readonly float: THREE.TextureDataType;
   private readonly across: THREE.WebGLRenderTarget;
   private readonly height: THREE.WebGLRenderTarget;
   private readonly low: THREE.WebGLRenderTarget;
@@ -48,28 +61,16 @@ export class Bake {
     const { width, height } = specimen;
     const m: MaterialConstants = specimen.document.material;
     this.size = new THREE.Vector2(width, height);
-    const data = (type: THREE.TextureDataType) => new THREE.WebGLRenderTarget(width, height, {
-      type, format: THREE.RGBAFormat, minFilter: THREE.NearestFilter,
-      magFilter: THREE.NearestFilter, depthBuffer: false, generateMipmaps: false,
-    });
-    const map = (srgb: boolean) => {
-      const target = new THREE.WebGLRenderTarget(width, height, {
-        type: THREE.UnsignedByteType, format: THREE.RGBAFormat, depthBuffer: false,
-        minFilter: THREE.LinearMipmapLinearFilter, magFilter: THREE.LinearFilter,
-        generateMipmaps: true, colorSpace: srgb ? THREE.SRGBColorSpace : THREE.NoColorSpace,
-        anisotropy: Math.min(8, renderer.capabilities.getMaxAnisotropy()),
-      });
-      target.texture.wrapS = target.texture.wrapT = THREE.MirroredRepeatWrapping;
-      return target;
-    };
-    const float = specimen.floatTargets ? THREE.FloatType : THREE.HalfFloatType;
-    this.frame = data(float);
-    this.across = data(float);
-    this.height = data(float);
-    this.low = data(float);
-    this.albedo = map(true);
-    this.normal = map(false);
-    this.orm = map(false);
+    const { float, map } = drawable(renderer);
+    this.float = float;
+    const albedoSpace = map === THREE.UnsignedByteType ? THREE.SRGBColorSpace : THREE.NoColorSpace;
+    this.frame = this.data();
+    this.across = this.data();
+    this.height = this.data();
+    this.low = this.data();
+    this.albedo = this.map(map, albedoSpace);
+    this.normal = this.map(map, THREE.NoColorSpace);
+    this.orm = this.map(map, THREE.NoColorSpace);
 
     const covered: Uniforms = {
       u_canvas: { value: specimen.canvas }, u_zone: { value: specimen.zone },
@@ -104,9 +105,9 @@ export class Bake {
       [pass(shaders.blur, { ...size, ...micro, ...step(0, 1),
         u_source: { value: this.across.texture } }), this.low],
     ];
-    this.albedoPass = pass(shaders.albedoMap, { ...frame, u_linear: { value: true } });
+    this.albedoPass = pass(shaders.albedoMap, frame);
     this.normalPass = pass(shaders.normalMap, { ...size, u_height: { value: this.height.texture },
-      u_scale: { value: m.normal_scale * m.normal_gain / 8 }, u_pack: { value: true } });
+      u_scale: { value: m.normal_scale * m.normal_gain / 8 } });
     this.ormPass = pass(shaders.ormMap, { ...frame, u_height: { value: this.height.texture },
       u_low: { value: this.low.texture },
       u_rough: { value: new THREE.Vector3(m.roughness_clean, m.roughness_patina, m.roughness_gamma) },
@@ -130,37 +131,59 @@ export class Bake {
   /** Full-resolution floats of a map at the age last baked, row 0 on top. */
   read(name: MapName): { width: number; height: number; channels: number; data: Float32Array } {
     const { x: width, y: height } = this.size;
-    const target = new THREE.WebGLRenderTarget(width, height, {
-      type: THREE.FloatType, format: THREE.RGBAFormat, depthBuffer: false,
-      minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter,
-    });
-    const rgba = new Float32Array(width * height * 4);
-    const set = (material: THREE.RawShaderMaterial, key: string, value: boolean) => {
-      material.uniforms[key]!.value = value;
-    };
+    const first = { albedo: 0, normal: 0, roughness: 1, metallic: 2, height: 3, coverage: 3 }[name];
+    const channels = name === "albedo" || name === "normal" ? 3 : 1;
+    const rgba = name === "albedo" || name === "coverage" ? this.pixels(this.frame)
+      : name === "normal" ? this.redrawn(this.normalPass) : this.redrawn(this.ormPass);
+    const unpack = name === "normal" ? (v: number) => v * 2 - 1 : (v: number) => v;
+    const out = new Float32Array(width * height * channels);
+    for (let i = 0; i < width * height; i++) {
+      for (let k = 0; k < channels; k++) out[i * channels + k] = unpack(rgba[i * 4 + first + k]!);
+    }
+    return { width, height, channels, data: out };
+  }
+
+  /** A map once more in the type of the data: the textures are made for looking at. */
+  private redrawn(material: THREE.RawShaderMaterial): Float32Array {
+    const target = this.data();
     try {
-      if (name === "normal") {
-        set(this.normalPass, "u_pack", false);
-        this.draw(this.normalPass, target);
-        set(this.normalPass, "u_pack", true);
-      } else if (name === "albedo" || name === "coverage") {
-        this.renderer.readRenderTargetPixels(this.frame, 0, 0, width, height, rgba);
-      } else {
-        this.draw(this.ormPass, target);
-      }
-      if (name !== "albedo" && name !== "coverage") {
-        this.renderer.readRenderTargetPixels(target, 0, 0, width, height, rgba);
-      }
+      this.draw(material, target);
+      return this.pixels(target);
     } finally {
       target.dispose();
     }
-    const first = { albedo: 0, normal: 0, roughness: 1, metallic: 2, height: 3, coverage: 3 }[name];
-    const channels = name === "albedo" || name === "normal" ? 3 : 1;
-    const out = new Float32Array(width * height * channels);
-    for (let i = 0; i < width * height; i++) {
-      for (let k = 0; k < channels; k++) out[i * channels + k] = rgba[i * 4 + first + k]!;
+  }
+
+  private pixels(target: THREE.WebGLRenderTarget): Float32Array {
+    const { x: width, y: height } = this.size, n = width * height * 4;
+    const read = (into: Float32Array | Uint16Array | Uint8Array) =>
+      this.renderer.readRenderTargetPixels(target, 0, 0, width, height, into);
+    if (this.float === THREE.FloatType) {
+      const out = new Float32Array(n);
+      read(out);
+      return out;
     }
-    return { width, height, channels, data: out };
+    const codes = this.float === THREE.HalfFloatType ? new Uint16Array(n) : new Uint8Array(n);
+    read(codes);
+    return Float32Array.from(codes, (c) =>
+      codes instanceof Uint16Array ? THREE.DataUtils.fromHalfFloat(c) : c / 255);
+  }
+
+  private data(): THREE.WebGLRenderTarget {
+    return new THREE.WebGLRenderTarget(this.size.x, this.size.y, {
+      type: this.float, format: THREE.RGBAFormat, minFilter: THREE.NearestFilter,
+      magFilter: THREE.NearestFilter, depthBuffer: false, generateMipmaps: false,
+    });
+  }
+
+  private map(type: THREE.TextureDataType, colorSpace: THREE.ColorSpace): THREE.WebGLRenderTarget {
+    const target = new THREE.WebGLRenderTarget(this.size.x, this.size.y, {
+      type, format: THREE.RGBAFormat, depthBuffer: false, generateMipmaps: true, colorSpace,
+      minFilter: THREE.LinearMipmapLinearFilter, magFilter: THREE.LinearFilter,
+      anisotropy: Math.min(8, this.renderer.capabilities.getMaxAnisotropy()),
+    });
+    target.texture.wrapS = target.texture.wrapT = THREE.MirroredRepeatWrapping;
+    return target;
   }
 
   private framePass(age: number): THREE.RawShaderMaterial {

@@ -10,7 +10,8 @@ export class ButtonRow<T extends string> {
       const button = document.createElement("button");
       button.type = "button";
       button.textContent = name[0]!.toUpperCase() + name.slice(1);
-      button.title = hints(name, index);
+      button.title = `Key ${hints(name, index)}`;
+      button.setAttribute("aria-keyshortcuts", hints(name, index));
       button.addEventListener("click", () => { this.press(name); onPick(name); });
       this.buttons.set(name, button);
       row.append(button);

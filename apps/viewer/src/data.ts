@@ -29,62 +29,71 @@ export interface ViewerDocument {
   canvas: Blob16; dead_zone: Blob16; active: Blob16; luma_fill: Blob16;
 }
 
+/** An error whose message is a sentence for the person at the screen. */
+export class PageFault extends Error {}
+
 export function readDocument(): ViewerDocument {
   const text = document.getElementById("verdigris-data")?.textContent ?? "";
   let parsed: ViewerDocument;
   try {
     parsed = JSON.parse(text) as ViewerDocument;
   } catch {
-    throw new Error("This page holds no forecast: it is the empty template, or it was cut short.");
+    throw new PageFault("This page holds no forecast: it is the empty template, or it was cut short.");
   }
   if (parsed.format !== "verdigris-viewer/1") {
-    throw new Error(`This page was made for another viewer (${String(parsed.format)}).`);
+    throw new PageFault(`This page was made for another viewer (${String(parsed.format)}).`);
   }
   return parsed;
 }
 
-/** Base64, zlib, left difference mod 2^16, then offset + scale * u16. Interleaved channels. */
-export async function decodeBlob(blob: Blob16, width: number, height: number): Promise<Float32Array> {
-  const binary = atob(blob.data);
+function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
+  const binary = atob(base64);
   const bytes = new Uint8Array(binary.length);
   for (let i = 0; i < binary.length; i++) bytes[i] = binary.charCodeAt(i);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return bytes;
+}
+
+/** An image as it travels: half the memory of its floats. */
+export interface Codes { channels: number; scale: number; offset: number; codes: Uint16Array }
+
+/** Base64, zlib, left difference mod 2^16. Interleaved channels. */
+export async function decodeCodes(blob: Blob16, width: number, height: number): Promise<Codes> {
+  const stream = new Blob([bytesOf(blob.data)]).stream().pipeThrough(new DecompressionStream("deflate"));
   const raw = await new Response(stream).arrayBuffer();
   const c = blob.channels, count = width * height * c;
-  if (raw.byteLength !== count * 2) throw new Error("The forecast in this page is damaged.");
-  const view = new DataView(raw);
-  const out = new Float32Array(count);
+  if (raw.byteLength !== count * 2) throw new PageFault("The forecast in this page is damaged.");
+  const view = new DataView(raw), codes = new Uint16Array(count);
   const above = new Uint16Array(c), left = new Uint16Array(c);
   for (let y = 0, i = 0; y < height; y++) {
     for (let x = 0; x < width; x++) {
       for (let k = 0; k < c; k++, i++) {
-        const from = x === 0 ? above[k]! : left[k]!;
-        const value = (view.getUint16(i * 2, true) + from) & 0xffff;
+        const value = (view.getUint16(i * 2, true) + (x === 0 ? above[k]! : left[k]!)) & 0xffff;
         left[k] = value;
         if (x === 0) above[k] = value;
-        out[i] = blob.offset + blob.scale * value;
+        codes[i] = value;
       }
     }
   }
-  return out;
+  return { channels: c, scale: blob.scale, offset: blob.offset, codes };
 }
 
-/** Four channels per texel: three of `rgb` and one of `a` (or 1). */
-export function packRgba(rgb: Float32Array, a: Float32Array | null): Float32Array {
-  const n = rgb.length / 3, out = new Float32Array(n * 4);
+/** RGBA floats per texel: the channels of `color`, then the one of `extra`. */
+export function packRgba(color: Codes, extra?: Codes): Float32Array {
+  const c = color.channels, n = color.codes.length / c, out = new Float32Array(n * 4);
   for (let i = 0; i < n; i++) {
-    out[i * 4] = rgb[i * 3]!;
-    out[i * 4 + 1] = rgb[i * 3 + 1]!;
-    out[i * 4 + 2] = rgb[i * 3 + 2]!;
-    out[i * 4 + 3] = a ? a[i]! : 1;
+    for (let k = 0; k < c; k++) out[i * 4 + k] = color.offset + color.scale * color.codes[i * c + k]!;
+    if (extra) out[i * 4 + c] = extra.offset + extra.scale * extra.codes[i]!;
   }
   return out;
 }
 
 /** An 8-bit picture as it was written: no color management, no premultiplied alpha. */
 export async function decodePicture(uri: string): Promise<ImageBitmap> {
-  const response = await fetch(uri);
-  return createImageBitmap(await response.blob(), {
+  const [head, data] = uri.split(",");
+  if (!head?.startsWith("data:image/png;base64") || !data) {
+    throw new PageFault("An observed frame in this page is damaged.");
+  }
+  return createImageBitmap(new Blob([bytesOf(data)], { type: "image/png" }), {
     colorSpaceConversion: "none", premultiplyAlpha: "none",
   });
 }

@@ -1,38 +1,83 @@
 // SPDX-License-Identifier: MIT
-// One map, flat, as large as fits.
+// One map, flat: as large as fits, or nearer.
 import * as THREE from "three";
 import { type Bake } from "./bake";
-import { flatFragment, flatVertex } from "./shaders";
+import { flatFragment, flatVertex } from "./flat_shaders";
 
 export const kMaps = ["lit", "albedo", "normal", "roughness", "metallic", "height", "coverage"] as const;
 export type MapView = (typeof kMaps)[number];
 
+/** How to read a map. `scale`: what its two ends mean, for those that are one number. */
+export const kMapNotes: Record<MapView, { note: string; scale?: [string, string] }> = {
+  lit: { note: "" },
+  albedo: { note: "Color without the light: the forecast frame itself." },
+  normal: { note: "Which way the surface faces: red to the right, green up." },
+  roughness: { note: "", scale: ["mirror-smooth", "matte"] },
+  metallic: { note: "", scale: ["patina", "bare metal"] },
+  height: { note: "", scale: ["low", "high (relative)"] },
+  coverage: { note: "", scale: ["as observed", "fully changed"] },
+};
+
+const kNearest = 32;        // chosen: a texel of a 256-pixel map is then about 100 screen pixels
+const kShowTexels = 5;      // screen pixels per texel from which texels are shown as squares
+
 export class FlatView {
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.Camera();
+  private readonly scale = new THREE.Vector2();
+  private readonly shift = new THREE.Vector2();
   private readonly material = new THREE.RawShaderMaterial({
     glslVersion: THREE.GLSL3, vertexShader: flatVertex, fragmentShader: flatFragment,
-    uniforms: { u_frame: { value: null }, u_orm: { value: null }, u_normal: { value: null },
-      u_map: { value: 0 }, u_fit: { value: new THREE.Vector2(1, 1) } },
+    uniforms: { u_albedo: { value: null }, u_coverage: { value: null }, u_orm: { value: null },
+      u_normal: { value: null }, u_map: { value: 0 }, u_texels: { value: false },
+      u_scale: { value: this.scale }, u_shift: { value: this.shift } },
     depthTest: false, depthWrite: false,
   });
+  private readonly fit = new THREE.Vector2(1, 1);
+  private zoom = 1;
 
-  constructor(private readonly renderer: THREE.WebGLRenderer, private readonly aspect: number) {
+  constructor(private readonly renderer: THREE.WebGLRenderer, private readonly aspect: number,
+              private readonly texelsAcross: number) {
     const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), this.material);
     quad.frustumCulled = false;
     this.scene.add(quad);
-    this.scene.background = new THREE.Color(0x17181b);
   }
 
-  draw(bake: Bake, view: MapView, stageAspect: number): void {
+  draw(bake: Bake, view: MapView, width: number, height: number): void {
+    // Room for the legend below and the badge above: 52 pixels each.
+    const tall = Math.max(1 - 104 / height, 0.5), wide = 0.94;
+    const across = Math.min(wide, (tall * height * this.aspect) / width);
+    this.fit.set(across, (across * width) / this.aspect / height);
+    this.scale.copy(this.fit).multiplyScalar(this.zoom);
+    this.keepInSight();
     const u = this.material.uniforms;
-    u.u_frame!.value = bake.frame.texture;
+    u.u_albedo!.value = bake.albedo.texture;
+    u.u_coverage!.value = bake.frame.texture;
     u.u_orm!.value = bake.orm.texture;
     u.u_normal!.value = bake.normal.texture;
     u.u_map!.value = kMaps.indexOf(view);
-    const fit = this.aspect / stageAspect, margin = 0.92;
-    (u.u_fit!.value as THREE.Vector2).set(
-      fit > 1 ? margin : margin * fit, fit > 1 ? margin / fit : margin);
+    u.u_texels!.value = (this.scale.x * width) / this.texelsAcross > kShowTexels;
     this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Nearer by `factor`, keeping the point at (x, y) in place: -1 to 1 across the stage, y up. */
+  zoomAt(factor: number, x: number, y: number): void {
+    const before = this.zoom;
+    this.zoom = Math.min(Math.max(before * factor, 1), kNearest);
+    const by = this.zoom / before;
+    this.shift.set(x + (this.shift.x - x) * by, y + (this.shift.y - y) * by);
+  }
+  /** In the same units. */
+  pan(dx: number, dy: number): void { this.shift.add({ x: dx, y: dy }); }
+  reset(): void {
+    this.zoom = 1;
+    this.shift.set(0, 0);
+  }
+
+  private keepInSight(): void {
+    for (const k of ["x", "y"] as const) {
+      const room = Math.max(this.fit[k] * this.zoom - 0.92, 0);
+      this.shift[k] = Math.min(Math.max(this.shift[k], -room), room);
+    }
   }
 }

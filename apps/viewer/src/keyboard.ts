@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 import { type AgeSlider } from "./age_slider";
 import { kMaps, type MapView } from "./flat";
-import { type Shape, type Stage } from "./scene";
+import { type FlatGestures } from "./flat_gestures";
+import { type Stage } from "./scene";
+import { type Shape } from "./shapes";
 import { type Wipe } from "./wipe";
 
 export interface Actions {
-  slider: AgeSlider; wipe: Wipe; stage: Stage;
+  slider: AgeSlider; wipe: Wipe; stage: Stage; gestures: FlatGestures;
+  turnLight(degrees: number): void;
   pickMap(view: MapView): void;
   pickShape(shape: Shape): void;
 }
@@ -21,7 +24,8 @@ export function listen(actions: Actions): void {
     const key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
     if (key === "h") { toggleHelp(); return; }
     if (help.open) return;
-    if (target === canvas && key.startsWith("Arrow")) {
+    if (target === canvas && actions.gestures.key(key)) { e.preventDefault(); return; }
+    if (target === canvas && key.startsWith("Arrow") && !actions.gestures.on) {
       const turn = 0.12;
       if (key === "ArrowLeft") actions.stage.turn(-turn, 0);
       if (key === "ArrowRight") actions.stage.turn(turn, 0);
@@ -30,12 +34,15 @@ export function listen(actions: Actions): void {
       e.preventDefault();
       return;
     }
+    if (target.id === "light" && /^(Arrow|Home|End|Page)/.test(key)) return;   // its own keys
     const { slider } = actions, step = e.shiftKey ? 5 : 0.5;
-    if (key === "ArrowLeft") slider.set(slider.age - step);
-    else if (key === "ArrowRight") slider.set(slider.age + step);
+    if (key === "ArrowLeft") slider.step(-step);
+    else if (key === "ArrowRight") slider.step(step);
     else if (key === "Home") slider.set(slider.range.first);
     else if (key === "End") slider.set(slider.range.last);
     else if (key === " " && target.tagName !== "BUTTON") slider.toggle();
+    else if (key === "[") actions.turnLight(-15);
+    else if (key === "]") actions.turnLight(15);
     else if (key === "w") actions.wipe.toggle();
     else if (key === "s") actions.pickShape("sphere");
     else if (key === "p") actions.pickShape("plane");

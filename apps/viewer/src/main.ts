@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The page: document in, stage up, one redraw per change.
 import * as THREE from "three";
-import { AgeSlider, ageText } from "./age_slider";
+import { AgeSlider, ageText, shortAge } from "./age_slider";
 import { Bake, type MapName } from "./bake";
 import { ButtonRow } from "./buttons";
-import { readDocument, type ViewerDocument } from "./data";
-import { FlatView, kMaps, type MapView } from "./flat";
+import { PageFault, readDocument, type ViewerDocument } from "./data";
+import { FlatView, kMapNotes, kMaps, type MapView } from "./flat";
+import { FlatGestures } from "./flat_gestures";
 import { listen } from "./keyboard";
 import { fillHelp, fillPanel } from "./panel";
-import { type Shape, Stage } from "./scene";
+import { Stage } from "./scene";
+import { type Shape, kShapes } from "./shapes";
 import { Specimen } from "./specimen";
 import { Wipe } from "./wipe";
 
@@ -31,12 +33,14 @@ function fault(message: string): void {
 
 function makeRenderer(): THREE.WebGLRenderer {
   const canvas = element<HTMLCanvasElement>("view");
-  const context = canvas.getContext("webgl2", { antialias: true, alpha: false });
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: true });
   if (!context) {
-    throw new Error("This browser or device offers no WebGL 2, which the picture needs. " +
+    throw new PageFault("This browser or device offers no WebGL 2, which the picture needs. " +
       "The contact sheet and the textures beside this page need none.");
   }
-  return new THREE.WebGLRenderer({ canvas, context, antialias: true });
+  canvas.addEventListener("webglcontextlost", () =>
+    fault("The graphics device was reset and the picture is lost. Reload the page to go on."));
+  return new THREE.WebGLRenderer({ canvas, context, antialias: true, alpha: true });
 }
 
 async function start(api: TestApi): Promise<void> {
@@ -45,11 +49,11 @@ async function start(api: TestApi): Promise<void> {
   document.title = `${doc.title} \u2013 Verdigris`;
   element("title").textContent = doc.title;
   element("subtitle").textContent =
-    `observed for ${doc.units_observed.toFixed(0)} units, forecast to +${doc.horizons[doc.horizons.length - 1] ?? 0}`;
+    `observed for ${doc.units_observed.toFixed(0)} units, forecast to +${doc.horizons.at(-1) ?? 0}`;
   fillPanel(doc);
   fillHelp();
   const renderer = makeRenderer();
-  const specimen = await Specimen.load(doc, renderer);
+  const specimen = await Specimen.load(doc, renderer.capabilities.maxTextureSize);
   const aspect = doc.width / doc.height;
   const current = new Bake(renderer, specimen);
   const reference = new Bake(renderer, specimen);
@@ -59,10 +63,11 @@ async function start(api: TestApi): Promise<void> {
   const stageBox = element("stage");
   const redraw = () => { if (!pending) pending = requestAnimationFrame(draw); };
   const stage = new Stage(renderer, aspect, redraw);
-  const flat = new FlatView(renderer, aspect);
+  const flat = new FlatView(renderer, aspect, doc.width);
+  const gestures = new FlatGestures(renderer.domElement, flat, redraw);
   const wipe = new Wipe(stageBox, redraw);
   const one = (bake: Bake, width: number, height: number) =>
-    view === "lit" ? stage.draw(bake) : flat.draw(bake, view, width / height);
+    view === "lit" ? stage.draw(bake) : flat.draw(bake, view, width, height);
 
   function draw(): void {
     pending = 0;
@@ -82,25 +87,48 @@ async function start(api: TestApi): Promise<void> {
   const first = Math.min(specimen.firstUnit, 0);
   const range = { first, last: specimen.lastUnit, trust: 2 * doc.context };
   let spoken = 0;
+  const say = (text: () => string, after: number) => {
+    window.clearTimeout(spoken);
+    spoken = window.setTimeout(() => { element("live").textContent = text(); }, after);
+  };
   const slider = new AgeSlider(doc, range, (age) => {
     const badge = element("badge");
-    badge.textContent = age > 0.05 ? "forecast" : "observed";
-    badge.className = age > 0.05 ? (age > range.trust ? "beyond" : "forecast") : "observed";
-    wipe.label(ageText(age));
-    window.clearTimeout(spoken);
-    spoken = window.setTimeout(() => { element("live").textContent = ageText(age); }, 600);
+    badge.textContent = age >= 0.05 ? "forecast" : "observed";
+    badge.className = age >= 0.05 ? (age > range.trust ? "beyond" : "forecast") : "observed";
+    wipe.label(shortAge(age));
+    say(() => ageText(age), 600);
     redraw();
   });
 
-  const maps = new ButtonRow("maps", kMaps, (_, i) => `Key ${i + 1}`, pickMap);
-  const shapes = new ButtonRow<Shape>("shapes", ["sphere", "plane", "curved"],
-    (n) => `Key ${n[0]!.toUpperCase()}`, pickShape);
-  function pickMap(name: MapView): void { view = name; maps.press(name); redraw(); }
+  const maps = new ButtonRow("maps", kMaps, (_, i) => String(i + 1), pickMap);
+  const shapes = new ButtonRow<Shape>("shapes", kShapes, (n) => n[0]!.toUpperCase(), pickShape);
+  function pickMap(name: MapView): void {
+    view = name;
+    maps.press(name);
+    stage.controls.enabled = name === "lit";
+    gestures.on = name !== "lit";
+    const { note, scale } = kMapNotes[name];
+    element("legend").hidden = name === "lit";
+    element("legend").classList.toggle("scaled", scale !== undefined);
+    element("legend").dataset.map = name;
+    element("legend-low").textContent = scale ? scale[0] : note;
+    element("legend-high").textContent = scale?.[1] ?? "";
+    say(() => `${name} map`, 300);
+    redraw();
+  }
   function pickShape(name: Shape): void {
     stage.setShape(name);
     shapes.press(name);
     pickMap("lit");
   }
+  const light = element<HTMLInputElement>("light");
+  const turnLight = (to: number) => {
+    light.value = String(to);
+    light.setAttribute("aria-valuetext", `${light.value} degrees`);
+    stage.studio.turn((Number(light.value) * Math.PI) / 180);
+    redraw();
+  };
+  light.addEventListener("input", () => turnLight(Number(light.value)));
   const panelButton = element("panel-toggle");
   const showPanel = (on: boolean) => {
     document.body.classList.toggle("panel-closed", !on);
@@ -108,7 +136,8 @@ async function start(api: TestApi): Promise<void> {
   };
   panelButton.addEventListener("click", () => showPanel(document.body.classList.contains("panel-closed")));
   showPanel(window.innerWidth > 900);
-  listen({ slider, wipe, stage, pickMap, pickShape });
+  listen({ slider, wipe, stage, gestures, pickMap, pickShape,
+    turnLight: (degrees) => turnLight(((Number(light.value) + degrees + 540) % 360) - 180) });
 
   new ResizeObserver(() => {
     const width = stageBox.clientWidth, height = stageBox.clientHeight;
@@ -129,4 +158,5 @@ async function start(api: TestApi): Promise<void> {
 const api = { age: 0, setAge: () => undefined, ready: Promise.resolve() } as unknown as TestApi;
 window.verdigris = api;
 api.ready = start(api);
-api.ready.catch((error: unknown) => fault(error instanceof Error ? error.message : String(error)));
+api.ready.catch((error: unknown) => fault(error instanceof PageFault ? error.message
+  : `This page cannot be shown: its data are damaged or were cut short (${String(error)}).`));

@@ -54,7 +54,8 @@ export function fillHelp(): void {
     ["\u2190 \u2192", "younger, older (with Shift: by 5 units)"], ["Home End", "first observed, last forecast"],
     ["Space", "play, pause"], ["1 \u2026 7", "lit, albedo, normal, roughness, metallic, height, coverage"],
     ["S P C", "sphere, plane, curved sheet"], ["W", "wipe against the last observed frame"],
-    ["Arrows on the picture", "turn the shape"], ["H", "this list"], ["Esc", "close"],
+    ["[ ]", "turn the light"], ["Arrows on the picture", "turn the shape, or move a flat map"],
+    ["+ \u2212 0 on a flat map", "nearer, farther, all of it"], ["H", "this list"], ["Esc", "close"],
   ]) {
     add(list, "dt", keys);
     add(list, "dd", what);

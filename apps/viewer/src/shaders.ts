@@ -36,7 +36,7 @@ const float kNever = 1e30;
 // First h > 0 where c h^2 + b h + start leaves the side of \`bound\` that [0, 1] is on.
 float first_crossing(float start, float b, float c, float bound) {
   float outward = bound > 0.5 ? 1.0 : -1.0;
-  float d = start - bound;
+  float d = (start - bound) * outward > 0.0 ? 0.0 : start - bound;   // a rounding step outside
   if (d == 0.0) {
     if (b * outward > 0.0 || (b == 0.0 && c * outward > 0.0)) return 0.0;
     float other = c == 0.0 ? kNever : -b / c;
@@ -188,12 +188,11 @@ void main() {
 }
 `;
 
-/** Tangent-space normal, +Y up; as unit vector or packed into [0, 1]. */
+/** Tangent-space normal, +Y up, packed into [0, 1]. */
 export const normalMap = `${header}
 uniform sampler2D u_height;
 uniform ivec2 u_size;
 uniform float u_scale;
-uniform bool u_pack;
 out vec4 result;
 float h(ivec2 at) { return texelFetch(u_height, clamp(at, ivec2(0), u_size - 1), 0).r; }
 void main() {
@@ -204,51 +203,17 @@ void main() {
   float dx = (c + 2.0 * f + j) - (a + 2.0 * d + g);
   float dy = (g + 2.0 * i + j) - (a + 2.0 * b + c);
   vec3 n = normalize(vec3(-u_scale * dx, u_scale * dy, 1.0));
-  result = vec4(u_pack ? n * 0.5 + 0.5 : n, 1.0);
+  result = vec4(n * 0.5 + 0.5, 1.0);
 }
 `;
 
-/** The frame as albedo: linear for an sRGB target (the GPU encodes), or encoded as it is. */
+/** The frame as albedo, linear: what a renderer filters and lights. */
 export const albedoMap = `${header}
 uniform sampler2D u_frame;
-uniform bool u_linear;
 out vec4 result;
 void main() {
-  vec3 v = texelFetch(u_frame, ivec2(gl_FragCoord.xy), 0).rgb;
-  if (u_linear) {
-    v = clamp(v, 0.0, 1.0);
-    v = mix(v / 12.92, pow((v + 0.055) / 1.055, vec3(2.4)), step(0.04045, v));
-  }
+  vec3 v = clamp(texelFetch(u_frame, ivec2(gl_FragCoord.xy), 0).rgb, 0.0, 1.0);
+  v = mix(v / 12.92, pow((v + 0.055) / 1.055, vec3(2.4)), step(0.04045, v));
   result = vec4(v, 1.0);
-}
-`;
-
-/** Shows one map flat, letterboxed by the quad it is drawn on. Output is display-ready. */
-export const flatVertex = `
-in vec3 position;
-in vec2 uv;
-uniform vec2 u_fit;
-out vec2 v_uv;
-void main() { v_uv = vec2(uv.x, 1.0 - uv.y); gl_Position = vec4(position.xy * u_fit, 0.0, 1.0); }
-`;
-export const flatFragment = `${header}
-uniform sampler2D u_frame, u_orm, u_normal;
-uniform int u_map;
-in vec2 v_uv;
-out vec4 result;
-vec3 heat(float t) {   // dark to bright, readable in gray: coverage is no color of the metal
-  return clamp(vec3(1.5 * t, 1.6 * t * t, 0.35 + 0.9 * t - 1.25 * t * t + t * t * t * 0.6), 0.0, 1.0);
-}
-void main() {
-  ivec2 at = ivec2(v_uv * vec2(textureSize(u_frame, 0)));
-  vec4 frame = texelFetch(u_frame, at, 0);
-  vec4 orm = texture(u_orm, v_uv);
-  vec3 v = frame.rgb;
-  if (u_map == 2) v = texture(u_normal, v_uv).rgb;
-  if (u_map == 3) v = vec3(orm.g);
-  if (u_map == 4) v = vec3(orm.b);
-  if (u_map == 5) v = vec3(orm.a);
-  if (u_map == 6) v = heat(frame.a);
-  result = vec4(clamp(v, 0.0, 1.0), 1.0);
 }
 `;
