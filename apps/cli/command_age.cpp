@@ -45,7 +45,7 @@ void run(Session& session, const Arguments& a) {
     session.say(fmt::format("observed  {} frames, {:.1f} units, {}x{} pixels, noise {:.2f} %",
                             observation.decode.decoded, observation.axis.units, observation.width(),
                             observation.height(), observation.noise.sigma * 100));
-    session.say(fmt::format("          {}", observation.crop.sentence));
+    session.say(fmt::format("          {}", as_sentence(observation.crop.sentence)));
     session.say(fmt::format("forecast  {}", saved.forecast.explanation));
     for (const Status& s : observation.notes) {
         if (s.sentence != observation.crop.sentence) session.tell(s);

@@ -36,7 +36,7 @@ void run(Session& session, const Arguments& a) {
     if (!info.camera.empty()) line("camera", info.camera);
     line("units", fmt::format("{:.1f} accelerated units, {} sample{} each", i.units,
                               i.samples_per_unit, i.samples_per_unit == 1 ? "" : "s"));
-    line("specimen", i.crop_sentence);
+    line("specimen", as_sentence(i.crop_sentence));
     line("change", fmt::format("{:.2f} % of full scale from first to last; noise of one frame "
                                "{:.2f} %",
                                i.specimen_change * 100, i.noise_sigma * 100));
@@ -49,7 +49,7 @@ void run(Session& session, const Arguments& a) {
                                       [&](const Status& f) { return f.sentence == s.sentence; });
         if (!told) session.tell(s);
     }
-    line("verdict", i.verdict_sentence);
+    line("verdict", as_sentence(i.verdict_sentence));
     session.result({{"recording", json_of(info)}, {"inspection", json_of(i)}});
 }
 

@@ -19,7 +19,7 @@ void run(Session& session, const Arguments& a) {
     session.say(fmt::format("observed  {} frames, {:.1f} units, {} samples kept at {}x{}",
                             o.decode.decoded, o.axis.units, o.samples.size(), o.width(),
                             o.height()));
-    session.say(fmt::format("          {}", o.crop.sentence));
+    session.say(fmt::format("          {}", as_sentence(o.crop.sentence)));
     session.say(fmt::format("          noise {:.3f} %, dead-zone tau {:.3f} %", o.noise.sigma * 100,
                             o.noise.tau * 100));
     for (const Status& s : o.notes) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 
@@ -94,6 +95,17 @@ Progress Session::progress() {
     };
 }
 
+std::string as_sentence(const std::string& note) {
+    std::string sentence = note;
+    // A first word with a dot or a digit in it is a file name, and stays as it is.
+    const std::string first = sentence.substr(0, sentence.find(' '));
+    if (first.find_first_of("._/0123456789") == std::string::npos && !sentence.empty()) {
+        sentence[0] = char(std::toupper(static_cast<unsigned char>(sentence[0])));
+    }
+    if (!sentence.empty() && sentence.back() != '.') sentence += '.';
+    return sentence;
+}
+
 void Session::say(const std::string& line) {
     if (printer_) printer_->clear();
     if (!json && !quiet) std::printf("%s\n", line.c_str());
@@ -101,11 +113,11 @@ void Session::say(const std::string& line) {
 
 void Session::tell(const Status& status) {
     if (status.severity == Severity::info) {
-        say("  note: " + status.sentence);
+        say("  note: " + as_sentence(status.sentence));
         return;
     }
     if (printer_) printer_->clear();
-    if (!quiet) std::fprintf(stderr, "  caution: %s\n", status.sentence.c_str());
+    if (!quiet) std::fprintf(stderr, "  caution: %s\n", as_sentence(status.sentence).c_str());
 }
 
 void Session::result(const Json& object) {

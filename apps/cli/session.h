@@ -53,6 +53,9 @@ class Session {
     std::shared_ptr<ProgressPrinter> printer_;
 };
 
+/// A finding as a sentence of its own: the library's notes begin in lower case, to follow "file: ".
+std::string as_sentence(const std::string& note);
+
 /// Installs handlers for SIGINT and SIGTERM: the next progress report then stops the work.
 void catch_interrupts();
 bool interrupted();

@@ -206,6 +206,7 @@ Json run_deliver(Session& session, const Observation& observation, const SavedFo
     delivery.guards = observation.notes;
     delivery.guards.insert(delivery.guards.end(), saved.forecast.guards.begin(),
                            saved.forecast.guards.end());
+    for (Status& guard : delivery.guards) guard.sentence = as_sentence(guard.sentence);
     delivery.units_observed = observation.axis.units;
     const Json observed = json_of(observation);
     for (const auto& [name, value] : observed.items()) {

@@ -40,7 +40,7 @@ export function picture(rgb, width, height) {
 export const kMaterial = { coverage_exponent: 0.85, roughness_clean: 0.16, roughness_patina: 0.88,
   roughness_gamma: 0.75, micro_roughness: 0.06, metallic_patina: 0.03, metallic_clean: 0.97,
   metallic_gamma: 1.25, height_patina_weight: 0.45, height_sigma: 1.0, micro_sigma: 2.0,
-  micro_range: 0.02, normal_scale: 2.6, normal_gain: 8, tau: 0.01, normalizer: 0.2, reference_horizon: 20 };
+  micro_range: 0.02, normal_scale: 2.6, normal_gain: 8, tau: 0.01, normalizer: 0.2, reference_horizon: 20, observed_is_clean: true };
 
 export function makeDocument({ width = 37, height = 29, order = 1, clamp = true, kind = "law", title = "made plate" }) {
   const next = random(7 + order), n = width * height, reach = 9;

@@ -57,6 +57,23 @@ await withBrowser(async (context) => {
     await page.close();
   });
 
+  await test("counted from the start, observed ages carry coverage by the same equation", async () => {
+    const made = makeDocument({});
+    made.doc.material.observed_is_clean = false;
+    const { page } = await openPage(context, await page_of(made.doc, "from_start"));
+    const albedo = (await readMap(page, -6, "albedo")).data;
+    const coverage = (await readMap(page, -6, "coverage")).data;
+    const m = made.doc.material, t = made.truth;
+    const worst = coverage.reduce((w, p, i) => {
+      const change = [0, 1, 2].reduce((s, k) => s + Math.abs(albedo[i * 3 + k] - t.canvas[i * 3 + k]), 0) / 3;
+      const expected = t.active[i] > 0.5 ? Math.min(Math.max((change - t.zone[i]) / m.normalizer, 0), 1) ** m.coverage_exponent : 0;
+      return Math.max(w, Math.abs(p - expected));
+    }, 0);
+    assert.ok(Math.max(...coverage) > 0.05, "nothing is covered: it tests nothing");
+    assert.ok(worst < 1e-3, `off by ${worst}`);
+    await page.close();
+  });
+
   await test("the slider changes the picture, by mouse, keyboard and ticks", async () => {
     const { page, complaints } = await open({ width: 64, height: 48 }, "slider");
     const canvas = page.locator("#view");

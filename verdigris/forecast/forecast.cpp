@@ -9,6 +9,8 @@
 
 #include "verdigris/error.h"
 #include "verdigris/forecast/context_pixels.h"
+#include "verdigris/observe/noise.h"
+#include "verdigris/pixels/parallel_rows.h"
 
 namespace verdigris {
 namespace {
@@ -52,6 +54,32 @@ Image<SrgbF> read_stack(const FrameStack& stack, double horizon) {
 
 }  // namespace
 
+namespace {
+
+/// `clipped` speaks of the whole recording; a pixel whose glint is over before the context begins
+/// is as good as any. What is left is clipped, or next to clipped, in some frame of the context.
+Mask clipped_in(const std::vector<Image<SrgbF>>& frames, const Mask& clipped) {
+    if (clipped.empty()) return {};
+    Mask left(clipped.width(), clipped.height());
+    parallel_rows(left.height(), 32, [&](RowRun run) {
+        for (int y = run.begin; y < run.end; ++y) {
+            for (int x = 0; x < left.width(); ++x) {
+                if (clipped(x, y) == 0) continue;
+                for (int v = std::max(y - 1, 0); v <= std::min(y + 1, left.height() - 1); ++v) {
+                    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, left.width() - 1); ++u) {
+                        for (const Image<SrgbF>& frame : frames) {
+                            if (is_clipped(frame(u, v))) left(x, y) = kInside;
+                        }
+                    }
+                }
+            }
+        }
+    });
+    return left;
+}
+
+}  // namespace
+
 Context context_from(const Observation& observation, int length) {
     if (length < 1) throw Error(ErrorCode::usage, "a context has at least one frame");
     if (!observation.store || observation.store->count() < 1) {
@@ -66,7 +94,7 @@ Context context_from(const Observation& observation, int length) {
         context.frames.push_back(observation.store->image(last - back * stride));
     }
     context.specimen = observation.specimen.clone();
-    context.clipped = observation.clipped.clone();
+    context.clipped = clipped_in(context.frames, observation.clipped);
     context.sigma = observation.noise.sigma;
     context.tau = observation.noise.tau;
     check_context(context);

@@ -80,31 +80,22 @@ void relax(const Image<float>& from, const Image<float>& known, Image<float>& to
     });
 }
 
-}  // namespace
-
-Image<float> fill_luma(const Image<SrgbF>& canvas, const Mask& specimen, const Mask& clipped) {
-    const int width = canvas.width(), height = canvas.height();
-    Image<float> fill = Image<float>::for_overwrite(width, height);
-    std::fill(fill.pixels().begin(), fill.pixels().end(), -1.0f);
-    if (clipped.empty()) return fill;
-    const auto on_specimen = [&](std::size_t i) {
-        return specimen.empty() || specimen.pixels()[i] != 0;
-    };
-
+/// Values of the specimen with the holes interpolated from around them; false if there is no hole
+/// or nothing to interpolate from.
+bool fill_holes(Image<float>& values, const Mask& specimen, const Mask& holes) {
     std::vector<Level> levels(1);
-    levels[0] = {Image<float>(width, height), Image<float>(width, height)};
+    levels[0] = {values.clone(), Image<float>(values.width(), values.height())};
     bool any_known = false, any_hole = false;
-    for (std::size_t i = 0; i < canvas.pixel_count(); ++i) {
-        if (!on_specimen(i)) continue;
-        if (clipped.pixels()[i] != 0) {
+    for (std::size_t i = 0; i < values.pixel_count(); ++i) {
+        if (!specimen.empty() && specimen.pixels()[i] == 0) continue;
+        if (holes.pixels()[i] != 0) {
             any_hole = true;
             continue;
         }
-        levels[0].value.pixels()[i] = luma(canvas.pixels()[i]);
         levels[0].weight.pixels()[i] = 1;
         any_known = true;
     }
-    if (!any_known || !any_hole) return fill;
+    if (!any_known || !any_hole) return false;
 
     while (levels.back().value.width() > 1 || levels.back().value.height() > 1) {
         levels.push_back(half(levels.back()));
@@ -116,12 +107,42 @@ Image<float> fill_luma(const Image<SrgbF>& canvas, const Mask& specimen, const M
         relax(levels[0].value, levels[0].weight, smooth);
         relax(smooth, levels[0].weight, levels[0].value);
     }
+    values = std::move(levels[0].value);
+    return true;
+}
+
+}  // namespace
+
+Image<float> fill_luma(const Image<SrgbF>& canvas, const Mask& specimen, const Mask& clipped) {
+    const int width = canvas.width(), height = canvas.height();
+    Image<float> fill = Image<float>::for_overwrite(width, height);
+    std::fill(fill.pixels().begin(), fill.pixels().end(), -1.0f);
+    if (clipped.empty()) return fill;
+    Image<float> values(width, height);
+    std::transform(canvas.pixels().begin(), canvas.pixels().end(), values.pixels().begin(),
+                   [](const SrgbF& c) { return luma(c); });
+    if (!fill_holes(values, specimen, clipped)) return fill;
     for (std::size_t i = 0; i < fill.pixel_count(); ++i) {
-        if (on_specimen(i) && clipped.pixels()[i] != 0) {
-            fill.pixels()[i] = levels[0].value.pixels()[i];
-        }
+        const bool on_specimen = specimen.empty() || specimen.pixels()[i] != 0;
+        if (on_specimen && clipped.pixels()[i] != 0) fill.pixels()[i] = values.pixels()[i];
     }
     return fill;
+}
+
+void fill_colors(Image<SrgbF>& image, const Mask& specimen, const Mask& holes) {
+    for (float SrgbF::*channel : {&SrgbF::r, &SrgbF::g, &SrgbF::b}) {
+        Image<float> values(image.width(), image.height());
+        for (std::size_t i = 0; i < values.pixel_count(); ++i) {
+            values.pixels()[i] = image.pixels()[i].*channel;
+        }
+        if (!fill_holes(values, specimen, holes)) return;
+        for (std::size_t i = 0; i < values.pixel_count(); ++i) {
+            const bool on_specimen = specimen.empty() || specimen.pixels()[i] != 0;
+            if (on_specimen && holes.pixels()[i] != 0) {
+                image.pixels()[i].*channel = values.pixels()[i];
+            }
+        }
+    }
 }
 
 }  // namespace verdigris

@@ -12,4 +12,7 @@ namespace verdigris {
 /// there is nothing to interpolate from. Empty masks: all specimen, none clipped.
 Image<float> fill_luma(const Image<SrgbF>& canvas, const Mask& specimen, const Mask& clipped);
 
+/// The same for colors, in place: `holes` on the specimen take the colors around them.
+void fill_colors(Image<SrgbF>& image, const Mask& specimen, const Mask& holes);
+
 }  // namespace verdigris

@@ -67,6 +67,26 @@ Mask active_mask(const Context& context) {
     return active;
 }
 
+/// Pixels at or next to saturation.
+Mask saturated(const Image<SrgbF>& image) {
+    constexpr float kSaturated = 0.98f;  // as observe/ masks clipped pixels
+    constexpr int kReach = 2;            // chosen: lens blur carries a glint about this far
+    Mask mask(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const SrgbF& c = image(x, y);
+            if (std::max({c.r, c.g, c.b}) < kSaturated) continue;
+            for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, image.height() - 1);
+                 ++v) {
+                const int from = std::max(x - kReach, 0);
+                const int to = std::min(x + kReach, image.width() - 1);
+                std::fill(mask.row(v) + from, mask.row(v) + to + 1, kInside);
+            }
+        }
+    }
+    return mask;
+}
+
 /// s of Eq. (2): the percentile of the changes above tau, less tau.
 double normalizer(const Image<float>& change, const Mask& active, double tau, double percentile) {
     std::vector<float> above;
@@ -133,12 +153,8 @@ MaterialRecipe prepare_material(const Context& context, const Forecast& forecast
         }
         recipe.observed_is_clean = false;
         recipe.canvas = clean_state->clone();
-        // A glint in the clean state says nothing about the metal under it.
-        constexpr float kSaturated = 0.98f;  // as observe/ masks clipped pixels
-        for (std::size_t i = 0; i < recipe.active.pixel_count(); ++i) {
-            const SrgbF& c = recipe.canvas.pixels()[i];
-            if (std::max({c.r, c.g, c.b}) >= kSaturated) recipe.active.pixels()[i] = 0;
-        }
+        // A glint in the clean state says nothing about the metal under it: the metal around does.
+        fill_colors(recipe.canvas, context.specimen, saturated(recipe.canvas));
         recipe.dead_zone = Image<float>(recipe.canvas.width(), recipe.canvas.height());
     } else {
         recipe.dead_zone = change_map(forecast.at(0), recipe.canvas);

@@ -192,7 +192,9 @@ export class Bake {
       this.law.uniforms.u_horizon!.value = Math.max(age, 0);
       return this.law;
     }
-    const material = age < 0 ? this.observed : this.stack;
+    // Where the start of the recording is the clean state, observed frames carry coverage too.
+    const clean = this.specimen.document.material.observed_is_clean;
+    const material = age < 0 && clean ? this.observed : this.stack;
     material.uniforms.u_from!.value = between.from;
     material.uniforms.u_to!.value = between.to;
     material.uniforms.u_mix!.value = between.mix;

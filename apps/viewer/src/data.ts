@@ -16,6 +16,7 @@ export interface MaterialConstants {
   metallic_clean: number; metallic_gamma: number; height_patina_weight: number;
   height_sigma: number; micro_sigma: number; micro_range: number; normal_scale: number;
   normal_gain: number; tau: number; normalizer: number; reference_horizon: number;
+  observed_is_clean: boolean;
 }
 
 export interface ViewerDocument {
