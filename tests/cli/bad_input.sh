@@ -20,7 +20,6 @@ bad 3 "one_frame|0000\.png" "$scratch/in/one_frame"
 bad 3 "0006\.png.*50.?x.?48|50.?x.?48.*0006\.png" "$scratch/in/mixed_sizes"
 bad 3 "0001\.png.*65000" "$scratch/in/huge"
 bad 3 "0005\.exr.*(NaN|not a number|finite)" "$scratch/in/nan"
-bad 3 "0007\.png" "$scratch/in/truncated_png"
 bad 3 "0000\.png" "$scratch/in/one_frame/0000.png"
 
 # Pictures without news are not an error, but nobody is told a forecast exists.
@@ -32,6 +31,11 @@ for still in single_color all_black; do
   grep -qE 'no_change|still|nothing changes' "$scratch/json" || fail "$still: not told that nothing changes"
   expect_results "$scratch/$still"
 done
+
+# A broken photograph costs that photograph, and is named.
+"$verdigris" age "$scratch/in/truncated_png" -o "$scratch/damaged" --json >"$scratch/json" 2>/dev/null ||
+  fail "one broken photograph cost them all"
+grep -q '0007.png' "$scratch/json" || fail "the broken photograph is not named"
 
 # Usage.
 "$fixture" plate "$scratch/plate" 12 64

@@ -4,6 +4,8 @@
 //   verdigris_fixture hostile DIR             one folder or file per kind of bad input
 // Synthetic: the tarnish is a color path through thin-film colors, faster where a smooth noise
 // says so. It is a test picture, not the simulator.
+#include <ImfRgbaFile.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,10 +15,10 @@
 #include <filesystem>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "verdigris/color/convert.h"
 #include "verdigris/files/atomic_file.h"
-#include "verdigris/files/image_file.h"
 #include "verdigris/files/png.h"
 
 namespace {
@@ -135,12 +137,15 @@ void hostile(const fs::path& root) {
     write_file(root / "huge" / "0001.png", bytes);
 
     for (int i = 0; i < 8; ++i) {
-        Image<LinearF> frame(32, 32);
-        for (auto& p : frame.pixels()) p = {0.4f, 0.2f, 0.1f};
-        if (i == 5) frame(7, 3).g = std::numeric_limits<float>::quiet_NaN();
+        // By OpenEXR itself: our own writer refuses to write a NaN.
+        std::vector<Imf::Rgba> pixels(32 * 32, Imf::Rgba(0.4f, 0.2f, 0.1f));
+        if (i == 5) pixels[3 * 32 + 7].g = std::numeric_limits<float>::quiet_NaN();
         char name[16];
         std::snprintf(name, sizeof name, "%04d.exr", i);
-        write_exr(root / "nan" / name, frame);
+        fs::create_directories(root / "nan");
+        Imf::RgbaOutputFile file((root / "nan" / name).c_str(), 32, 32, Imf::WRITE_RGB);
+        file.setFrameBuffer(pixels.data(), 1, 32);
+        file.writePixels(32);
     }
     for (int i = 0; i < 12; ++i)
         write_png(root / "truncated_png" / number(i), plate_frame(96, i, 12));

@@ -65,7 +65,8 @@ TEST(ViewerJson, HasEveryFieldOfTheFormat) {
         "height_sigma",      "micro_sigma",      "normal_scale",
         "normal_gain",       "micro_range",      "tau",
         "normalizer",        "reference_horizon"};
-    EXPECT_EQ(document["material"].size(), scalars.size());
+    EXPECT_EQ(document["material"].size(), scalars.size() + 1);
+    EXPECT_EQ(document["material"]["observed_is_clean"], made.recipe.observed_is_clean);
     for (const std::string& name : scalars) {
         EXPECT_TRUE(document["material"].at(name).is_number()) << name;
     }

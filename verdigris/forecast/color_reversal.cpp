@@ -24,7 +24,7 @@ constexpr double kMinArmsPerJitter = 6;
 // chosen: tiles of a sixteenth of the frame; an average over 64 pixels at 128 x 128.
 constexpr int kTilesAcross = 16, kMinTile = 4;
 constexpr double kMinTileShare = 0.25;  // chosen: of the specimen's area
-constexpr double kVisible = 5e-4;       // the floor of tau itself, spec of tau: see observe/
+constexpr double kVisible = 5e-4;       // the floor of tau itself: see observe/
 
 double median(std::vector<double> v) {
     const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);

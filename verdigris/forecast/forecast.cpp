@@ -56,15 +56,13 @@ Image<SrgbF> read_stack(const FrameStack& stack, double horizon) {
 
 namespace {
 
-/// `clipped` speaks of the whole recording; a pixel whose glint is over before the context begins
-/// is as good as any. What is left is clipped, or next to clipped, in some frame of the context.
-Mask clipped_in(const std::vector<Image<SrgbF>>& frames, const Mask& clipped) {
-    if (clipped.empty()) return {};
-    Mask left(clipped.width(), clipped.height());
+/// Observation::clipped speaks of the whole recording; a pixel whose glint is over before the
+/// context begins is as good as any. Here: clipped, or next to clipped, in some context frame.
+Mask clipped_in(const std::vector<Image<SrgbF>>& frames) {
+    Mask left(frames[0].width(), frames[0].height());
     parallel_rows(left.height(), 32, [&](RowRun run) {
         for (int y = run.begin; y < run.end; ++y) {
             for (int x = 0; x < left.width(); ++x) {
-                if (clipped(x, y) == 0) continue;
                 for (int v = std::max(y - 1, 0); v <= std::min(y + 1, left.height() - 1); ++v) {
                     for (int u = std::max(x - 1, 0); u <= std::min(x + 1, left.width() - 1); ++u) {
                         for (const Image<SrgbF>& frame : frames) {
@@ -94,7 +92,7 @@ Context context_from(const Observation& observation, int length) {
         context.frames.push_back(observation.store->image(last - back * stride));
     }
     context.specimen = observation.specimen.clone();
-    context.clipped = clipped_in(context.frames, observation.clipped);
+    context.clipped = clipped_in(context.frames);
     context.sigma = observation.noise.sigma;
     context.tau = observation.noise.tau;
     check_context(context);

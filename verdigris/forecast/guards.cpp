@@ -16,7 +16,7 @@
 namespace verdigris {
 namespace {
 
-constexpr double kTrustedContexts = 2;   // horizons up to 2 n: spec of affinergb, C.4
+constexpr double kTrustedContexts = 2;   // horizons up to 2 n: chosen, see docs/models
 constexpr double kMaxOutOfGamut = 0.01;  // chosen: one pixel in a hundred is seen
 constexpr double kMaxClipped = 0.20;     // chosen: a fifth of the specimen has no measured color
 // derived: tau covers |frame - median of 5| at 99.9 %, of standard deviation 1.13 sigma; the
@@ -67,9 +67,10 @@ std::optional<Status> color_reversal(const Context& context) {
     std::vector<std::string> parts;
     for (const Reversal& r : reversals) {
         parts.push_back(fmt::format(
-            "{} {} until about frame {:.0f} of {} and then {} again (in {} of the specimen)",
+            "{} {} until about frame {:.0f} of {} and then {} again (in {})",
             kNames[std::size_t(r.channel)], r.turn.rises_first ? "rose" : "fell", r.turn.at + 1,
-            context.length(), r.turn.rises_first ? "fell" : "rose", percent(r.share)));
+            context.length(), r.turn.rises_first ? "fell" : "rose",
+            r.share > 0.001 ? percent(r.share) + " of the specimen" : "the specimen's mean"));
     }
     return Status{"color_reversal", Severity::caution,
                   fmt::format("The color turned around while it was observed: {}. A drift fitted "
@@ -122,9 +123,9 @@ std::optional<Status> mostly_clipped(const Context& context) {
     }
     if (specimen == 0 || double(clipped) <= kMaxClipped * double(specimen)) return {};
     return Status{"mostly_clipped", Severity::caution,
-                  fmt::format("{} of the specimen is saturated (a glint, or pure black): its color "
-                              "was never recorded and is left as it is. Move the light, or expose "
-                              "less.",
+                  fmt::format("{} of the specimen was saturated in some observed frame, or lies "
+                              "beside a pixel that was (a glint, or pure black), and is left as it "
+                              "is. Move the light, or expose less.",
                               percent(double(clipped) / double(specimen)))};
 }
 

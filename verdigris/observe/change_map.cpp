@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "verdigris/color/convert.h"
@@ -13,13 +14,13 @@
 namespace verdigris {
 namespace {
 
-constexpr int kEndLooks = 4;  // spec E.1
+constexpr int kEndLooks = 4;  // chosen: a median of four outvotes one bad frame
 // Second differences need a few triples before their median means anything.
 constexpr std::size_t kLooksForNoise = 6;
 constexpr double kSigmaOverMad = 1.4826;
 // chosen: half an 8-bit step. Compressed video repeats pixels exactly; its noise is not zero.
 constexpr float kNoiseFloor = 0.5f / 255;
-// spec E.1: bare and tarnishing copper has hues of 50..60 degrees; widened on both sides.
+// chosen: bare and tarnishing copper has hues of 50..60 degrees; widened on both sides.
 constexpr double kHueFrom = 25, kHueTo = 80, kChromaFrom = 10;
 // chosen: with less than this share of other colors, the gain is measured on everything.
 constexpr double kOtherColors = 0.1;
@@ -72,8 +73,26 @@ Mask copper_colored(const Image<SrgbF>& image) {
     return mask;
 }
 
+// Positions t whose neighbors are about equally far away, and near: a second difference over a gap
+// in the looks holds aging. Falls back to all where too few are left.
+std::vector<std::size_t> even_triples(const std::vector<int>& index) {
+    int shortest = std::numeric_limits<int>::max();
+    for (std::size_t t = 1; t < index.size(); ++t) {
+        shortest = std::min(shortest, index[t] - index[t - 1]);
+    }
+    std::vector<std::size_t> even, all;
+    for (std::size_t t = 1; t + 1 < index.size(); ++t) {
+        all.push_back(t);
+        const int longer = std::max(index[t] - index[t - 1], index[t + 1] - index[t]);
+        if (2 * longer <= 3 * shortest) even.push_back(t);
+    }
+    return even.size() >= 2 ? even : all;
+}
+
 // Per pixel, over time and channels: 1.4826 median |second difference| / sqrt(6).
-std::vector<float> temporal_noise(const std::vector<Image<SrgbF>>& frames) {
+std::vector<float> temporal_noise(const std::vector<Image<SrgbF>>& frames,
+                                  const std::vector<int>& index) {
+    const std::vector<std::size_t> triples = even_triples(index);
     const int width = frames[0].width(), height = frames[0].height();
     std::vector<float> sigma(frames[0].pixel_count());
     parallel_rows(height, 8, [&](RowRun run) {
@@ -81,7 +100,7 @@ std::vector<float> temporal_noise(const std::vector<Image<SrgbF>>& frames) {
         for (int y = run.begin; y < run.end; ++y) {
             for (int x = 0; x < width; ++x) {
                 values.clear();
-                for (std::size_t t = 1; t + 1 < frames.size(); ++t) {
+                for (const std::size_t t : triples) {
                     const SrgbF a = frames[t - 1](x, y), b = frames[t](x, y),
                                 c = frames[t + 1](x, y);
                     values.push_back(std::fabs(a.r - 2 * b.r + c.r));
@@ -137,7 +156,7 @@ ChangeMap change_map(const Look& look) {
     std::vector<float> sigma;
     float typical = 0;
     if (count >= kLooksForNoise) {
-        sigma = temporal_noise(even);
+        sigma = temporal_noise(even, look.index);
         std::vector<float> sorted = sigma;
         typical = median_of(sorted.data(), sorted.data() + sorted.size());
     } else {

@@ -11,8 +11,8 @@
 namespace verdigris {
 namespace {
 
-constexpr int kClusters = 4;              // spec E.1
-constexpr float kLightnessWeight = 0.5f;  // spec E.1: light and shadow on one metal stay together
+constexpr int kClusters = 4;              // chosen: metal, patina, mount, backdrop
+constexpr float kLightnessWeight = 0.5f;  // chosen: light and shadow on one metal stay together
 constexpr int kStride = 3;  // chosen: every ninth pixel places the centers well enough
 constexpr std::uint64_t kSeed = 0x9E3779B97F4A7C15;  // any fixed number
 // chosen: less copper color than this is chance.

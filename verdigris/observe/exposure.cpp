@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTukey = 4.685;  // 95 % efficiency under a Gaussian [Holland1977]
 constexpr double kSigmaOverMad = 1.4826;
-constexpr int kIterations = 5;             // spec E.1
+constexpr int kIterations = 5;             // chosen: the weights settle in three
 constexpr std::size_t kMaxPixels = 20000;  // chosen: the gain of so many is exact to 1e-4
 constexpr float kDark = 0.03f;             // chosen: below 8 of 255 a ratio is mostly noise
 
@@ -144,7 +144,8 @@ std::optional<Status> JumpWatch::finding() const {
     const std::string text = fmt::format(
         "the whole picture gets {:.0f} % {} at once at frame {}; lock exposure and white balance, "
         "or leave that part out",
-        100 * std::expm1(size), largest->log_gain > 0 ? "brighter" : "darker", largest->frame);
+        100 * std::fabs(std::expm1(largest->log_gain)),
+        largest->log_gain > 0 ? "brighter" : "darker", largest->frame);
     return Status{"exposure_jump", Severity::caution, text};
 }
 

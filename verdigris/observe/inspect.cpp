@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "verdigris/error.h"
@@ -85,8 +86,16 @@ void measure_times(const std::vector<double>& times, Inspection& out) {
 }
 
 void measure_steps(const Look& look, const SpecimenFinding& finding, Inspection& out) {
-    std::vector<double> steps;
+    // Looks at a video are runs of neighbors with long gaps between: only steps of about the
+    // shortest gap are like one another, and a gap full of aging is no jump.
+    int shortest = std::numeric_limits<int>::max();
     for (std::size_t i = 1; i < look.frames.size(); ++i) {
+        shortest = std::min(shortest, look.index[i] - look.index[i - 1]);
+    }
+    std::vector<double> steps;
+    std::vector<int> arrives;
+    for (std::size_t i = 1; i < look.frames.size(); ++i) {
+        if (2 * (look.index[i] - look.index[i - 1]) > 3 * shortest) continue;
         double sum = 0;
         const auto a = look.frames[i - 1].pixels(), b = look.frames[i].pixels();
         for (std::size_t p = 0; p < a.size(); ++p) {
@@ -95,12 +104,13 @@ void measure_steps(const Look& look, const SpecimenFinding& finding, Inspection&
                    3;
         }
         steps.push_back(sum / double(a.size()));
+        arrives.push_back(look.index[i]);
     }
     if (steps.empty()) return;
     const auto largest = std::max_element(steps.begin(), steps.end());
     // An eighth of an 8-bit step: a still video has steps of nothing.
     out.largest_jump = *largest / std::max(median_of(steps), 5e-4);
-    out.largest_jump_frame = look.index[std::size_t(largest - steps.begin()) + 1];
+    out.largest_jump_frame = arrives[std::size_t(largest - steps.begin())];
     if (out.largest_jump > kBigJump && *largest > kSmallestJump) {
         out.findings.push_back(
             {"jump", Severity::caution,

@@ -11,7 +11,7 @@
 namespace verdigris {
 namespace {
 
-// chosen: the median of four frames at each end (spec E.1).
+// chosen: the median of four frames at each end.
 constexpr int kInARow = 4;
 // chosen: decoding this many frames one after another is cheaper than jumping.
 constexpr int kReadThrough = 128;

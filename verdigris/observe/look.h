@@ -15,9 +15,9 @@
 
 namespace verdigris {
 
-/// chosen: spec E.1; the medians of the first and last four and a robust scale need no more.
+/// chosen: the medians of the first and last four and a robust scale need no more.
 inline constexpr int kMaxLooks = 64;
-/// Long side of a look. chosen: spec E.1; the specimen's outline to 1/480 of the frame.
+/// Long side of a look. chosen: the specimen's outline to 1/480 of the frame.
 inline constexpr int kLookSide = 480;
 
 struct Look {

@@ -14,8 +14,8 @@ namespace {
 constexpr double kSigmaOverMad = 1.4826;
 // Var(x1 - 2 x2 + x3) = 6 Var(x).
 const double kSecondDifferenceGain = std::sqrt(6.0);
-// derived (spec D.2): the 1 % point of the union over 10 horizons of the channel-mean |y - C|, C
-// the median of 5 samples, in units of sigma. The floor is an eighth of an 8-bit step.
+// derived (docs/models/observe.md): the 1 % point of the union over 10 horizons of the channel-mean
+// |y - C|, C the median of 5 samples, in units of sigma. The floor is an eighth of an 8-bit step.
 constexpr double kTauOverSigma = 2.40, kTauFloor = 5e-4;
 // One step of an 8-bit picture in 16-bit codes.
 constexpr double kByteStep = 257;

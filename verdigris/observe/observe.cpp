@@ -106,8 +106,9 @@ Mask specimen_in(const Scene& scene, int width, int height) {
 void note_scene(Scene& scene, bool none_mode, Statuses& notes) {
     switch (scene.finding.kind) {
         case SpecimenKind::fills_frame:
-            notes.push_back(
-                {"fills_frame", Severity::info, crop_report(scene.finding, scene.look).sentence});
+            if (!none_mode && scene.crop.fills_frame) {
+                notes.push_back({"fills_frame", Severity::info, scene.crop.sentence});
+            }
             if (none_mode) scene.crop.fills_frame = true;
             break;
         case SpecimenKind::still:

@@ -30,7 +30,7 @@ export function layTrack(doc: ViewerDocument, range: AgeRange, go: (unit: number
   now.style.left = at(0);
   element("zones").append(now);
   element("caution").textContent = `Caution: past +${unitText(trust)}, twice the ${doc.context} ` +
-    "units fitted, it goes further than the observation supports.";
+    "frames fitted, it goes further than the observation supports.";
 
   const ticks: { button: HTMLButtonElement; unit: number; rank: number }[] = [];
   const tick = (unit: number, label: string, spoken: string, rank: number) => {
