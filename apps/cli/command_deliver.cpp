@@ -24,7 +24,7 @@ void run(Session& session, const std::filesystem::path& output) {
                     "`verdigris materialize` again",
                     output.string());
     }
-    const Json options = {{"observe", read_options(output / kObservedFolder)},
+    const Json options = {{"observe", read_options(output / kObservedFolder)["observe"]["options"]},
                           {"forecast", read_options(output / kForecastFolder)},
                           {"material", read_options(output / kMaterialFolder)}};
     StagedFolder staged(output);

@@ -13,6 +13,12 @@ async function pixels(texture: Texture): Promise<number[]> {
   return Array.from(context.getImageData(0, 0, image.width, image.height).data);
 }
 
+/** The attributes are interleaved: read them through their accessors. */
+function corners(mesh: Mesh): { y: number; v: number }[] {
+  const position = mesh.geometry.getAttribute("position"), uv = mesh.geometry.getAttribute("uv");
+  return Array.from({ length: position.count }, (_, i) => ({ y: position.getY(i), v: uv.getY(i) }));
+}
+
 async function load(base64: string) {
   const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   const gltf = await new GLTFLoader().parseAsync(bytes.buffer, "");
@@ -27,8 +33,7 @@ async function load(base64: string) {
     flipped: material.map!.flipY,
     factors: [material.roughness, material.metalness],
     tangents: mesh!.geometry.getAttribute("tangent") !== undefined,
-    uv: Array.from(mesh!.geometry.getAttribute("uv").array),
-    position: Array.from(mesh!.geometry.getAttribute("position").array),
+    corners: corners(mesh!),
     color: await pixels(material.map!),
     orm: await pixels(material.roughnessMap!),
     normal: await pixels(material.normalMap!),
