@@ -67,6 +67,9 @@ ObserveOptions ObserveArguments::options() const {
         throw Error(ErrorCode::usage,
                     fmt::format("--size takes native or a side from 8 to 16384, not '{}'", size));
     }
+    if (!std::isfinite(units) || units > 1e6 || !std::isfinite(tau)) {
+        throw Error(ErrorCode::usage, "--units and --tau are plain numbers, --units at most 1e6");
+    }
     if (units > 0) o.units = units;
     if (tau > 0) o.tau = tau;
     o.keep = every_sample ? Keep::every_sample : Keep::unit_steps;

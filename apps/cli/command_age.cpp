@@ -21,24 +21,35 @@ struct Arguments {
 
 void run(Session& session, const Arguments& a) {
     const fs::path input = a.input;
-    fs::path name = input.filename().empty() ? input.parent_path().filename() : input.filename();
+    // A folder keeps its whole name ("run.2"); a file loses its extension.
+    const std::string name = input_name(input);
     const fs::path output =
-        a.output.empty() ? fs::path(name.stem().string() + "-aged") : fs::path(a.output);
+        a.output.empty()
+            ? fs::path((fs::is_directory(input) ? name : fs::path(name).stem().string()) + "-aged")
+            : fs::path(a.output);
     a.material.check();
-    const Json options = {{"observe", json_of(a.observe.options())},
+    const Json options = {{"observe", json_of(a.observe)},
                           {"forecast", json_of(a.forecast)},
                           {"material", json_of(a.material)}};
     check_output_folder(output, input, session.force);
 
-    const Observation observation = run_observe(session, input, output, a.observe);
+    ObservedStage observed = run_observe(session, input, output, a.observe);
+    const Observation& observation = observed.observation;
+    // Into an empty folder at once, so that an interrupted run resumes; over an earlier result only
+    // when no guard can refuse any more, so that a refusal leaves that result whole.
+    if (!fs::exists(output / kManifestFile)) observed.commit();
     const SavedForecast saved = run_forecast(session, observation, a.forecast);
+    observed.commit();
     const MaterialRecipe recipe = run_material(session, observation, saved, a.material);
 
     StagedFolder staged(output);
     write_forecast(saved, staged.path() / kForecastFolder);
     write_material_stage(saved, recipe, staged.path() / kMaterialFolder);
-    write_options(staged.path() / kForecastFolder, options["forecast"]);
-    write_options(staged.path() / kMaterialFolder, options["material"]);
+    const Json forecast_options = {{"options", options["forecast"]},
+                                   {"observe", read_options(output / kObservedFolder)}};
+    write_options(staged.path() / kForecastFolder, forecast_options);
+    write_options(staged.path() / kMaterialFolder,
+                  {{"options", options["material"]}, {"forecast", forecast_options}});
     const Json manifest = run_deliver(session, observation, saved, recipe, options, staged);
     staged.commit(kManifestFile);
 
@@ -59,8 +70,7 @@ void run(Session& session, const Arguments& a) {
     }
     session.say(fmt::format("Import    {} and {}/", (output / kGltfFile).string(),
                             (output / kTexturesFolder).string()));
-    session.say(fmt::format("Try next  verdigris age {} -o {} --context {} --horizons 5,15,30",
-                            a.input, output.string(), a.forecast.context));
+    session.say("Try next  other --horizons, or --forecaster affinergb; the observation is kept");
     session.result(manifest);
 }
 

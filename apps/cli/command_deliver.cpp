@@ -17,16 +17,22 @@ void run(Session& session, const std::filesystem::path& output) {
     const Observation observation = read_observation(output / kObservedFolder);
     const SavedForecast saved = read_forecast(output / kForecastFolder);
     const MaterialRecipe recipe = read_recipe(output / kMaterialFolder);
-    if (saved.source_sha256 != observation.source_sha256 ||
-        !recipe.canvas.same_size(saved.forecast.trajectory.base)) {
+    const bool same_size = recipe.canvas.same_size(observation.width(), observation.height()) &&
+                           !saved.context.frames.empty() &&
+                           recipe.canvas.same_size(saved.context.frames[0]);
+    const bool same_chain = read_options(output / kForecastFolder)["observe"] ==
+                                read_options(output / kObservedFolder) &&
+                            read_options(output / kMaterialFolder)["forecast"] ==
+                                read_options(output / kForecastFolder);
+    if (saved.source_sha256 != observation.source_sha256 || !same_size || !same_chain) {
         throw Error(ErrorCode::bad_input,
-                    "the stages in it come from different inputs; run `verdigris forecast` and "
+                    "the stages in it do not belong together; run `verdigris forecast` and "
                     "`verdigris materialize` again",
                     output.string());
     }
-    const Json options = {{"observe", read_options(output / kObservedFolder)["observe"]["options"]},
-                          {"forecast", read_options(output / kForecastFolder)},
-                          {"material", read_options(output / kMaterialFolder)}};
+    const Json options = {{"observe", read_options(output / kObservedFolder)["observe"]},
+                          {"forecast", read_options(output / kForecastFolder)["options"]},
+                          {"material", read_options(output / kMaterialFolder)["options"]}};
     StagedFolder staged(output);
     const Json manifest = run_deliver(session, observation, saved, recipe, options, staged);
     staged.commit(kManifestFile);

@@ -21,7 +21,9 @@ void run(Session& session, const Arguments& a) {
     const SavedForecast saved = run_forecast(session, observation, a.forecast);
     StagedFolder staged(output);
     write_forecast(saved, staged.path() / kForecastFolder);
-    write_options(staged.path() / kForecastFolder, json_of(a.forecast));
+    write_options(
+        staged.path() / kForecastFolder,
+        {{"options", json_of(a.forecast)}, {"observe", read_options(output / kObservedFolder)}});
     staged.commit();
     session.say(fmt::format("forecast  {}", saved.forecast.explanation));
     for (const Status& s : saved.forecast.guards) session.tell(s);

@@ -21,10 +21,19 @@ void run(Session& session, const Arguments& a) {
     require_stage(output, kObservedFolder, "observe");
     const Observation observation = read_observation(output / kObservedFolder);
     const SavedForecast saved = read_forecast(output / kForecastFolder);
+    if (saved.context.frames.empty() ||
+        !saved.context.frames[0].same_size(observation.width(), observation.height())) {
+        throw Error(
+            ErrorCode::bad_input,
+            "its forecast was made from another observation; run `verdigris forecast` again",
+            output.string());
+    }
     const MaterialRecipe recipe = run_material(session, observation, saved, a.material);
     StagedFolder staged(output);
     write_material_stage(saved, recipe, staged.path() / kMaterialFolder);
-    write_options(staged.path() / kMaterialFolder, json_of(a.material));
+    write_options(
+        staged.path() / kMaterialFolder,
+        {{"options", json_of(a.material)}, {"forecast", read_options(output / kForecastFolder)}});
     staged.commit();
     session.say(fmt::format("material  full coverage at a change of {:.2f} % beyond the dead-zone",
                             recipe.normalizer * 100));

@@ -15,7 +15,9 @@ struct Arguments {
 
 void run(Session& session, const Arguments& a) {
     check_output_folder(a.output, a.input, session.force);
-    const Observation o = run_observe(session, a.input, a.output, a.observe);
+    ObservedStage stage = run_observe(session, a.input, a.output, a.observe);
+    stage.commit();
+    const Observation& o = stage.observation;
     session.say(fmt::format("observed  {} frames, {:.1f} units, {} samples kept at {}x{}",
                             o.decode.decoded, o.axis.units, o.samples.size(), o.width(),
                             o.height()));

@@ -124,7 +124,8 @@ Json json_of(const Forecast& f) {
     return j;
 }
 
-Json json_of(const ObserveOptions& o) {
+Json json_of(const ObserveArguments& arguments) {
+    const ObserveOptions o = arguments.options();
     Json crop = "auto";
     if (o.crop.mode == CropMode::none) crop = "none";
     if (o.crop.mode == CropMode::manual) crop = json_of(o.crop.rect);
@@ -133,7 +134,9 @@ Json json_of(const ObserveOptions& o) {
             {"units", o.units ? Json(*o.units) : Json("auto")},
             {"tau", o.tau ? Json(*o.tau) : Json("measured")},
             {"trim", o.trim},
-            {"keep", o.keep == Keep::every_sample ? "every_sample" : "unit_steps"}};
+            {"keep", o.keep == Keep::every_sample ? "every_sample" : "unit_steps"},
+            {"assume_matrix", arguments.assume_matrix.empty() ? "auto" : arguments.assume_matrix},
+            {"assume_range", arguments.assume_range.empty() ? "auto" : arguments.assume_range}};
 }
 
 Json json_of(const ForecastArguments& a) {

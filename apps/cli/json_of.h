@@ -24,7 +24,7 @@ Json json_of(const Inspection& inspection);
 Json json_of(const Observation& observation);
 /// Forecaster, explanation, guards; no pixels.
 Json json_of(const Forecast& forecast);
-Json json_of(const ObserveOptions& options);
+Json json_of(const ObserveArguments& arguments);
 Json json_of(const ForecastArguments& arguments);
 Json json_of(const MaterialArguments& arguments);
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // verdigris: what will this surface look like later, and can I put that in a scene?
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "commands.h"
 #include "session.h"
@@ -58,13 +60,23 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& e) {
         return app.exit(e);  // --help, --version
     } catch (const CLI::ParseError& e) {
-        std::fprintf(stderr, "verdigris: %s\nTry `verdigris --help`.\n", e.what());
-        return int(ErrorCode::usage);
+        session.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
+        const std::string word = argc > 1 ? argv[1] : "";
+        const auto commands =
+            app.get_subcommands([&](CLI::App* c) { return c->get_name() == word; });
+        const bool unknown = !word.empty() && word[0] != '-' && commands.empty();
+        return fail(session, int(ErrorCode::usage),
+                    (unknown ? "there is no command '" + word + "'" : std::string(e.what())) +
+                        " (try `verdigris --help`)");
     }
     cli::catch_interrupts();
     set_thread_count(session.threads);
     try {
         session.action(session);
+        if (std::fflush(stdout) != 0 || std::ferror(stdout)) {
+            throw Error(ErrorCode::failed, "cannot be written: the disk is full or the reader gone",
+                        "standard output");
+        }
         return 0;
     } catch (const Error& e) {
         return fail(session, int(e.code()), e.what());

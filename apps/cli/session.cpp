@@ -31,6 +31,7 @@ std::string eta(double seconds) {
 void catch_interrupts() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    std::signal(SIGHUP, on_signal);  // a closed terminal
 }
 bool interrupted() {
     return g_interrupted != 0;

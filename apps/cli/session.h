@@ -56,7 +56,7 @@ class Session {
 /// A finding as a sentence of its own: the library's notes begin in lower case, to follow "file: ".
 std::string as_sentence(const std::string& note);
 
-/// Installs handlers for SIGINT and SIGTERM: the next progress report then stops the work.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP: the next progress report then stops the work.
 void catch_interrupts();
 bool interrupted();
 

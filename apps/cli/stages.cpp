@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <system_error>
 
 #include "json_of.h"
@@ -27,8 +29,32 @@ constexpr int kObservedFramesShown = 13;
 constexpr int kObservedFramesShownLarge = 7;
 constexpr std::size_t kLargeImage = 640 * 640;
 
+constexpr const char* kEntries[] = {kObservedFolder, kForecastFolder, kMaterialFolder,
+                                    kTexturesFolder, kGltfFile,       kViewerFile,
+                                    kSheetFile,      kManifestFile};
+
+/// The manifest of an earlier run of ours; null if there is none.
+Json earlier_manifest(const fs::path& output) {
+    std::error_code error;
+    if (!fs::is_regular_file(output / kManifestFile, error)) return nullptr;
+    const Json json = Json::parse(read_text(output / kManifestFile), nullptr, false);
+    const bool ours = json.is_object() && json.contains("format") && json["format"].is_string() &&
+                      json["format"].get<std::string>().starts_with("verdigris-manifest/");
+    return ours ? json : Json(nullptr);
+}
+
 bool is_ours(const fs::path& output) {
-    return fs::exists(output / kManifestFile) || fs::exists(output / kObservedFolder);
+    std::error_code error;
+    return !earlier_manifest(output).is_null() ||
+           fs::is_regular_file(output / kObservedFolder / "observation.json", error);
+}
+
+/// Is `inner` `outer`, or under it? Both may not exist yet.
+bool lies_in(const fs::path& inner, const fs::path& outer) {
+    std::error_code error;
+    const fs::path in = fs::weakly_canonical(fs::absolute(inner), error);
+    const fs::path out = fs::weakly_canonical(fs::absolute(outer), error);
+    return std::mismatch(out.begin(), out.end(), in.begin(), in.end()).first == out.end();
 }
 
 std::vector<ObservedFrame> frames_to_show(const Observation& o) {
@@ -46,6 +72,25 @@ std::vector<ObservedFrame> frames_to_show(const Observation& o) {
     return frames;
 }
 
+/// A straight line between two pictures is easy to predict and says nothing: too many of those in
+/// the context, and no back-test means anything.
+std::optional<Status> interpolated_context(const Observation& o, int length) {
+    const int count = int(o.samples.size());
+    int made_up = 0;
+    for (int i = std::max(count - length, 0); i < count; ++i) {
+        made_up += o.samples[std::size_t(i)].interpolated ? 1 : 0;
+    }
+    if (made_up == 0) return std::nullopt;
+    const bool most = 2 * made_up > length;
+    return Status{"interpolated_context", most ? Severity::refusal : Severity::caution,
+                  fmt::format("{} of the {} units that the forecast is fitted on hold no picture "
+                              "and were interpolated{}",
+                              made_up, length,
+                              most ? ": there is too little to forecast from. Leave the gap out, "
+                                     "or use --force"
+                                   : "")};
+}
+
 /// What decides an observation, beside the input bytes and the program's version.
 Json observation_key(const Json& options) {
     return {{"version", VERDIGRIS_VERSION}, {"observe", options}};
@@ -55,20 +100,45 @@ Json observation_key(const Json& options) {
 
 void check_output_folder(const fs::path& output, const fs::path& input, bool force) {
     std::error_code error;
-    if (!input.empty() && fs::is_directory(input, error)) {
-        const fs::path in = fs::weakly_canonical(input, error);
-        const fs::path out = fs::weakly_canonical(output, error);
-        const auto [in_end, out_rest] = std::mismatch(in.begin(), in.end(), out.begin(), out.end());
-        if (in_end == in.end()) {
+    if (fs::is_directory(input, error) && lies_in(output, input)) {
+        throw Error(ErrorCode::usage,
+                    "the output folder lies inside the input folder; choose another with -o",
+                    output.string());
+    }
+    for (const char* entry : kEntries) {
+        if (lies_in(input, output / entry)) {
             throw Error(ErrorCode::usage,
-                        "the output folder lies inside the input folder; choose another with -o",
-                        output.string());
+                        "the input would be overwritten by the result; choose another folder "
+                        "with -o",
+                        (output / entry).string());
         }
     }
-    if (!fs::exists(output, error) || force) return;
+    if (!fs::exists(output, error)) return;
     if (!fs::is_directory(output, error)) {
         throw Error(ErrorCode::failed, "is a file, not a folder; choose another with -o",
                     output.string());
+    }
+    if (is_ours(output)) {
+        const Json manifest = earlier_manifest(output);
+        const std::string name = manifest.is_null() ? "" : manifest["input"].value("name", "");
+        if (!force && !name.empty() && name != input_name(input)) {
+            throw Error(ErrorCode::refused,
+                        "holds the result of '" + name +
+                            "', another recording; choose another "
+                            "folder, or --force to replace it",
+                        output.string());
+        }
+        return;
+    }
+    // Not even --force replaces what is not ours.
+    for (const char* entry : kEntries) {
+        if (fs::exists(output / entry, error)) {
+            throw Error(ErrorCode::refused,
+                        fmt::format("holds a '{}' that is not a result of ours; choose another "
+                                    "folder",
+                                    entry),
+                        output.string());
+        }
     }
     fs::directory_iterator entries(output, error);
     if (error)
@@ -77,11 +147,17 @@ void check_output_folder(const fs::path& output, const fs::path& input, bool for
         std::any_of(fs::begin(entries), fs::end(entries), [](const fs::directory_entry& e) {
             return !e.path().filename().string().starts_with(".partial-");
         });
-    if (has_foreign && !is_ours(output)) {
+    if (has_foreign && !force) {
         throw Error(ErrorCode::refused,
                     "the output folder holds other files; choose an empty one or use --force",
                     output.string());
     }
+}
+
+std::string input_name(const fs::path& input) {
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(input), error);
+    return (whole.filename().empty() ? whole.parent_path() : whole).filename().string();
 }
 
 void require_stage(const fs::path& output, const char* folder, const char* command) {
@@ -107,12 +183,10 @@ void write_options(const fs::path& folder, const Json& options) {
                options.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-Observation run_observe(Session& session, const fs::path& input, const fs::path& output,
-                        const ObserveArguments& arguments) {
+ObservedStage run_observe(Session& session, const fs::path& input, const fs::path& output,
+                          const ObserveArguments& arguments) {
     ObserveOptions options = arguments.options();
-    const Json key = observation_key({{"options", json_of(options)},
-                                      {"assume_matrix", arguments.assume_matrix},
-                                      {"assume_range", arguments.assume_range}});
+    const Json key = observation_key(json_of(arguments));
     const Recording recording = open_recording(input, arguments.recording_options());
     const Progress progress = session.progress();
     const std::string hash = recording.sha256(progress);
@@ -124,26 +198,22 @@ Observation run_observe(Session& session, const fs::path& input, const fs::path&
             if (found.source_sha256 == hash) {
                 session.say(fmt::format("observe: same input and options as in {}, kept",
                                         existing.string()));
-                return found;
+                return {std::move(found), nullptr};
             }
         } catch (const Error&) {
             session.say("observe: the earlier observation is damaged; observing again");
         }
     }
 
-    Observation observation;
-    {
-        StagedFolder staged(output);
-        const fs::path folder = staged.path() / kObservedFolder;
-        fs::create_directories(folder);
-        options.store = folder / "samples.npy";
-        observation = observe(recording, options, progress);
-        observation.source_sha256 = hash;
-        write_observation(observation, folder);
-        write_options(folder, key);
-        staged.commit();
-    }
-    return observation;
+    auto staged = std::make_unique<StagedFolder>(output);
+    const fs::path folder = staged->path() / kObservedFolder;
+    fs::create_directories(folder);
+    options.store = folder / "samples.npy";
+    Observation observation = observe(recording, options, progress);
+    observation.source_sha256 = hash;
+    write_observation(observation, folder);
+    write_options(folder, key);
+    return {std::move(observation), std::move(staged)};
 }
 
 SavedForecast run_forecast(Session& session, const Observation& observation,
@@ -157,6 +227,9 @@ SavedForecast run_forecast(Session& session, const Observation& observation,
     report(session.progress(), "forecast", 0, 1);
     saved.forecast = forecaster.forecast(saved.context);
     saved.forecast.guards = check_guards(saved.context, saved.forecast, saved.horizons);
+    if (const auto status = interpolated_context(observation, saved.context.length())) {
+        saved.forecast.guards.insert(saved.forecast.guards.begin(), *status);
+    }
     if (!session.force) refuse_if_needed(saved.forecast.guards);
     report(session.progress(), "forecast", 1, 1);
     return saved;

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "arguments.h"
@@ -26,15 +28,29 @@ inline constexpr const char* kViewerFile = "viewer.html";
 inline constexpr const char* kSheetFile = "contact_sheet.png";
 inline constexpr const char* kManifestFile = "manifest.json";
 
-/// Throws Error{refused} if `output` holds files that are not a result of ours, unless forced:
-/// nobody wants textures strewn over a home folder. Also if it lies inside the input folder.
+/// Nothing of the user's is ever replaced. Throws Error{usage} if the output lies in the input, or
+/// the input where a result would go; Error{refused} if `output` holds files that are not a result
+/// of ours or the result of another recording, unless forced.
 void check_output_folder(const std::filesystem::path& output, const std::filesystem::path& input,
                          bool force);
 
-/// Observes into <output>/observed, or reads what is there if it was made from the same bytes with
-/// the same options. Commits.
-Observation run_observe(Session& session, const std::filesystem::path& input,
-                        const std::filesystem::path& output, const ObserveArguments& arguments);
+/// The last part of a path, also for "." and "folder/": how a recording is called.
+std::string input_name(const std::filesystem::path& input);
+
+/// An observation and the folder it waits in, not yet part of the result; null if it already is.
+struct ObservedStage {
+    Observation observation;
+    std::unique_ptr<StagedFolder> staged;
+    void commit() {
+        if (staged) staged->commit();
+        staged.reset();
+    }
+};
+
+/// Observes for <output>/observed, or reads what is there if it was made from the same bytes with
+/// the same options.
+ObservedStage run_observe(Session& session, const std::filesystem::path& input,
+                          const std::filesystem::path& output, const ObserveArguments& arguments);
 
 /// Forecasts and applies the guards. Does not write. Throws Error{refused} unless forced.
 SavedForecast run_forecast(Session& session, const Observation& observation,

@@ -34,10 +34,11 @@ std::string why_hold(const BacktestTrial& best) {
         compared = fmt::format("{} was {:.1f} times worse", best.row.forecaster, worse);
     } else if (worse > 1.005) {
         compared = fmt::format("{} was {:.0f} % worse", best.row.forecaster, 100 * (worse - 1));
+    } else if (best.row.gain_over_persistence > 0.0005) {
+        compared = fmt::format("{} was {:.1f} % better, which noise alone can explain",
+                               best.row.forecaster, 100 * best.row.gain_over_persistence);
     } else {
-        compared =
-            fmt::format("{} was {:.0f} % better, which noise alone can explain",
-                        best.row.forecaster, std::max(0.0, 100 * best.row.gain_over_persistence));
+        compared = fmt::format("{} was no better", best.row.forecaster);
     }
     const char* verdict =
         worse > 1.005 ? "predicted the last {} best" : "did as well on the last {}";

@@ -242,7 +242,8 @@ void write_forecast(const SavedForecast& saved, const fs::path& folder) {
     for (double horizon : saved.horizons) {
         write_picture(forecast, horizon, to / ("forecast_" + horizon_label(horizon) + ".png"));
     }
-    write_file(to / kManifest, manifest_of(saved).dump(2) + "\n");
+    write_file(to / kManifest,
+               manifest_of(saved).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     staged.commit(kManifest);
 }
 

@@ -135,7 +135,7 @@ void write_recipe(const MaterialRecipe& recipe, const fs::path& folder) {
     write_array(to / "dead_zone.npy", recipe.dead_zone);
     write_array(to / "luma_fill.npy", recipe.luma_fill);
     write_png(to / "active.png", recipe.active);
-    write_file(to / kManifest, manifest.dump(2) + "\n");
+    write_file(to / kManifest, manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     staged.commit(kManifest);
 }
 

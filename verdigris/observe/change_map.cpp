@@ -144,7 +144,9 @@ ChangeMap change_map(const Look& look) {
     map.gains.resize(count);
     parallel_for(int(count), [&](int i) {
         const auto n = std::size_t(i);
-        map.gains[n] = robust_gain(first, look.frames[n], others);
+        // Without such a majority the gain would be fitted on the specimen and its aging divided
+        // out: light and aging cannot be told apart then, and all change counts.
+        if (map.majority) map.gains[n] = robust_gain(first, look.frames[n], others);
         even[n] = Image<SrgbF>::for_overwrite(map.width, map.height);
         for (std::size_t p = 0; p < pixels; ++p) {
             even[n].pixels()[p] = apart_from(look.frames[n].pixels()[p], map.gains[n]);

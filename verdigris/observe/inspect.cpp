@@ -158,10 +158,11 @@ void judge_length(int frames, Inspection& out) {
             {"few_frames", Severity::refusal,
              fmt::format("only {} frames; a forecast wants at least {}", frames, kFewFrames)});
     } else if (frames < kSomeFrames) {
-        out.findings.push_back({"few_frames", Severity::caution,
-                                fmt::format("only {} frames; the forecast cannot be checked "
-                                            "against the recording's own end",
-                                            frames)});
+        out.findings.push_back(
+            {"few_frames", Severity::caution,
+             fmt::format("only {} frames; a check against the recording's own end "
+                         "rests on very few of them",
+                         frames)});
     }
 }
 
@@ -197,6 +198,12 @@ void pass_verdict(Inspection& out) {
 
 Inspection inspect(const Recording& recording, const Progress& progress) {
     const RecordingInfo& info = recording.info();
+    if (std::min(info.width, info.height) < 2) {
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("its frames are {} x {} pixels: there is nothing to see",
+                                info.width, info.height),
+                    info.path.filename().string());
+    }
     Inspection out;
     out.frames = int(info.times.size());
     out.findings = info.notes;

@@ -170,7 +170,8 @@ void write_observation(const Observation& o, const std::filesystem::path& folder
     write_png(folder / "specimen.png", o.specimen);
     write_png(folder / "clipped.png", o.clipped);
     // Last, so that a folder with an observation.json is complete.
-    write_file(folder / "observation.json", json_of(o).dump(1) + "\n");
+    write_file(folder / "observation.json",
+               json_of(o).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Observation read_observation(const std::filesystem::path& folder) {

@@ -28,6 +28,13 @@ void check(const RecordingInfo& info, const ObserveOptions& options) {
                                        : "holds one frame only; a recording needs at least 2",
                     name);
     }
+    constexpr int kMinSide = 2;  // chosen: one pixel has no neighbors to be told from
+    if (std::min(info.width, info.height) < kMinSide) {
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("its frames are {} x {} pixels: there is nothing to see",
+                                info.width, info.height),
+                    name);
+    }
     if (!(options.trim >= 0 && options.trim < 0.5)) {
         throw Error(ErrorCode::usage, "the trimmed share must be at least 0 and below 0.5");
     }
