@@ -35,10 +35,8 @@ void run(Session& session, const Arguments& a) {
 
     ObservedStage observed = run_observe(session, input, output, a.observe);
     const Observation& observation = observed.observation;
-    // Into an empty folder at once, so that an interrupted run resumes; over an earlier result only
-    // when no guard can refuse any more, so that a refusal leaves that result whole.
-    if (!fs::exists(output / kManifestFile)) observed.commit();
     const SavedForecast saved = run_forecast(session, observation, a.forecast);
+    // Only now that no guard can refuse any more: a refusal leaves an earlier result whole.
     observed.commit();
     const MaterialRecipe recipe = run_material(session, observation, saved, a.material);
 

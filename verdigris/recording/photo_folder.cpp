@@ -94,6 +94,12 @@ void read_headers(const std::filesystem::path& folder, std::vector<Photo>& photo
             photo.broken = error.sentence();
         }
     });
+    // A picture that says it is too large is not damaged: it says what it means to say.
+    for (const Photo& photo : photos) {
+        if (photo.broken.starts_with("declares")) {
+            throw Error(ErrorCode::bad_input, photo.broken, (folder / photo.name).string());
+        }
+    }
     const auto broken = [](const Photo& p) { return !p.broken.empty(); };
     const auto first = std::find_if(photos.begin(), photos.end(), broken);
     const auto count = std::count_if(photos.begin(), photos.end(), broken);
