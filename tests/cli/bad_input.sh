@@ -65,7 +65,7 @@ if command -v ffmpeg >/dev/null; then
   ffmpeg -v error -f lavfi -i sine=d=1 -c:a aac "$scratch/in/sound.mp4"
   bad 3 "sound\.mp4.*video" "$scratch/in/sound.mp4"
   ffmpeg -v error -framerate 10 -i "$scratch/plate/%04d.png" -pix_fmt yuv420p "$scratch/in/plate.mp4"
-  head -c 3000 "$scratch/in/plate.mp4" >"$scratch/in/cut.mp4"
+  head -c $(($(stat -c %s "$scratch/in/plate.mp4") / 2)) "$scratch/in/plate.mp4" >"$scratch/in/cut.mp4"
   bad 3 "cut\.mp4" "$scratch/in/cut.mp4"
 fi
 if [ -d "$shared/video" ]; then
