@@ -80,9 +80,9 @@ MaterialRecipe prepare_material(const Context& context, const Forecast& forecast
                                 const MaterialOptions& options = {},
                                 const Image<SrgbF>* clean_state = nullptr);
 
-/// Has the specimen visibly left `start`, as seen in the median of the context? True if the mean change over
-/// the specimen is above 5 % of full scale and above 2 tau. chosen: 5 % is seen at a glance, and
-/// [Paper] Section 4 has its whole recordings move by 12 %.
+/// Has the specimen visibly left `start`, as seen in the median of the context? True if the mean
+/// change over the specimen is above 5 % of full scale and above 2 tau. chosen: 5 % is seen at a
+/// glance, and [Paper] Section 4 has its whole recordings move by 12 %.
 bool has_left(const Image<SrgbF>& start, const Context& context);
 
 /// The maps of a frame, into `out` (resized if needed, so that scrubbing allocates nothing).

@@ -39,7 +39,8 @@ struct ObserveOptions {
     CropChoice crop;
     int size = 0;  ///< side of the (square) result in pixels; 0: native, no resampling
     std::optional<double> units;  ///< units the recording spans; default see docs/models/observe.md
-    std::optional<double> tau;    ///< dead-zone; default 2.40 * sigma, at least 5e-4 (docs/models/observe.md)
+    std::optional<double>
+        tau;  ///< dead-zone; default 2.40 * sigma, at least 5e-4 (docs/models/observe.md)
     Keep keep{Keep::unit_steps};
     double trim = 0.1;  ///< share trimmed at each end of a bin, per pixel and channel
     /// Where kept samples are written as they are made (samples.npy). Empty: an unnamed temporary.
