@@ -21,14 +21,19 @@ diff "$scratch/age.sums" "$scratch/steps.sums" >&2 || fail "the stages and age d
 for word in frames times color exposure clipped verdict; do
   grep -q "^$word" "$scratch/out" || fail "inspect says nothing about $word"
 done
-"$verdigris" inspect "$scratch/plate" --json | grep -q '"verdict"' || fail "inspect --json"
-"$verdigris" doctor | grep -q "processor" || fail "doctor"
-"$verdigris" doctor --json | grep -q '"simd"' || fail "doctor --json"
+"$verdigris" inspect "$scratch/plate" --json >"$scratch/out"
+grep -q '"verdict"' "$scratch/out" || fail "inspect --json"
+"$verdigris" doctor >"$scratch/out"
+grep -q "processor" "$scratch/out" || fail "doctor"
+"$verdigris" doctor --json >"$scratch/out"
+grep -q '"simd"' "$scratch/out" || fail "doctor --json"
 if [ -e "$scratch/age/viewer.html" ]; then
-  "$verdigris" view "$scratch/age" --print | grep -q viewer.html || fail "view --print"
+  "$verdigris" view "$scratch/age" --print >"$scratch/out"
+  grep -q viewer.html "$scratch/out" || fail "view --print"
 fi
 # Guards.
-"$verdigris" age "$scratch/plate" -o "$scratch/long" --horizons 5,200 --quiet --json | grep -q long_horizon ||
+"$verdigris" age "$scratch/plate" -o "$scratch/long" --horizons 5,200 --quiet --json >"$scratch/out"
+grep -q long_horizon "$scratch/out" ||
   fail "a horizon far beyond the context is not flagged"
 expect 4 "force" "$verdigris" age "$scratch/plate" -o "$scratch/few" --context 3
 "$verdigris" age "$scratch/plate" -o "$scratch/few" --context 3 --force --quiet || fail "--force"
