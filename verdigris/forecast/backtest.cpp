@@ -24,9 +24,8 @@ constexpr int kMinForOrder2 = 8;  // chosen: the first origin then fits 3 coeffi
 // does to it. Of the error above the noise, that is: both forecasts carry the noise of the last
 // frame and of the frame they are judged on, 2 sigma^2, and no forecast can gain on that. Where
 // nothing is above the noise, 5 % of the whole error stands in, so that the bar is never zero.
-// Twice its standard error over the origins is twice the one-standard-error rule. On the real
-// copper of the shared data (12 settings, docs/models/forecast.md) one standard error lets noise
-// through.
+// tuned: twice its standard error over the origins, on the real copper and clay frames, where one
+// standard error let noise through (docs/models/forecast.md).
 constexpr double kMinGain = 0.02, kMinStandardErrors = 2, kMinExcess = 0.05;
 constexpr double kCreditMargin = 1.25;  // chosen: the noise itself is known to about 10 %
 
