@@ -106,7 +106,7 @@ await withBrowser(async (context) => {
       await page.evaluate((a) => window.verdigris.setAge(a), age);
       assert.equal(await page.locator("#caution").isVisible(), beyond, `at ${age}`);
     }
-    assert.match(await page.locator("#caution").textContent(), /past \+8, twice the 4 units/);
+    assert.match(await page.locator("#caution").textContent(), /past \+8, twice the 4 frames fitted/);
     assert.ok(await page.locator("#zones .beyond").isVisible());
     await page.close();
   });
