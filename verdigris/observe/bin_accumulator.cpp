@@ -18,21 +18,19 @@ namespace {
 // tuned: bench/observe_clip.cpp; from 8 on the state's traffic is below the frames' own.
 constexpr int kFramesHeld = 8;
 
-// A group of 8-bit frames keeps 8 fractional bits of its mean: 255 * 256 < 2^16.
-constexpr double kGroupScale = 256;
-
 // Averages of consecutive frames, for bins with more frames than are trimmed one by one.
 template <class T>
 struct GroupTraits {
     using Sum = std::uint32_t;  // 65,537 frames of 16 bit; a group holds a bin's 80th part
     using Mean = std::uint16_t;
-    static constexpr double kScale = std::is_same_v<T, std::uint8_t> ? kGroupScale : 1;
+    // A group's mean fills 16 bits, so that few-bit frames keep fractions of a code.
+    static double scale(int bits) { return std::exp2(16 - std::clamp(bits, 8, 16)); }
 };
 template <>
 struct GroupTraits<float> {
     using Sum = double;
     using Mean = float;
-    static constexpr double kScale = 1;
+    static double scale(int) { return 1; }
 };
 
 template <class T>
@@ -40,7 +38,12 @@ class PlaneBin {
   public:
     using Mean = typename GroupTraits<T>::Mean;
 
-    PlaneBin(int n, int rows) : n_(n), rows_(rows), single_(n, rows), means_(samples()) {}
+    PlaneBin(int n, int rows, int bits)
+        : n_(n),
+          rows_(rows),
+          scale_(GroupTraits<T>::scale(bits)),
+          single_(n, rows),
+          means_(samples()) {}
 
     void begin(int k, bool grouped) {
         grouped_ = grouped;
@@ -66,10 +69,12 @@ class PlaneBin {
     void end_group() {
         if (!grouped_ || in_group_ == 0) return;
         group_mean_.resize(samples());
-        const double factor = GroupTraits<T>::kScale / in_group_;
+        const double factor = scale_ / in_group_;
         for (std::size_t i = 0; i < samples(); ++i) {
             const double mean = double(group_sum_[i]) * factor;
-            group_mean_[i] = std::is_same_v<Mean, float> ? Mean(mean) : Mean(mean + 0.5);
+            // Samples of more bits than they should have (a faulty coder) must not wrap around.
+            group_mean_[i] =
+                std::is_same_v<Mean, float> ? Mean(mean) : Mean(std::min(mean + 0.5, 65535.0));
             group_sum_[i] = 0;
         }
         in_group_ = 0;
@@ -78,7 +83,7 @@ class PlaneBin {
     int values() const { return grouped_ ? groups_->count() : single_.count(); }
     const float* means(int drop) {
         if (grouped_) {
-            groups_->means(drop, 1 / GroupTraits<T>::kScale, means_.data());
+            groups_->means(drop, 1 / scale_, means_.data());
         } else {
             single_.means(drop, 1, means_.data());
         }
@@ -90,6 +95,7 @@ class PlaneBin {
   private:
     std::size_t samples() const { return std::size_t(n_) * std::size_t(rows_); }
     int n_, rows_;
+    double scale_;  // of a group's mean, per code
     bool grouped_ = false;
     TrimmedPlane<T> single_;
     std::optional<TrimmedPlane<Mean>> groups_;
@@ -152,7 +158,7 @@ struct TypedState final : BinAccumulator::State {
     TypedState(const FrameFormat& f, Rect c, double trim) : State(f, c, trim) {
         for (int p = 0; p < plane_count(format); ++p) {
             const Rect r = plane_rect(format, p, coded);
-            planes.emplace_back(r.width * channels(format), r.height);
+            planes.emplace_back(r.width * channels(format), r.height, format.bits);
         }
     }
     void begin_planes(int k, bool grouped) override {

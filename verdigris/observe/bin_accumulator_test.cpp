@@ -119,6 +119,7 @@ TYPED_TEST(TrimmedMean, OfMoreFramesThanFitAveragesGroupsFirst) {
     std::mt19937 random(8);
     FrameFormat format;
     format.type = type_of<T>();
+    format.bits = int(8 * sizeof(T));
     format.model = PixelModel::gray;
     const int width = 70, height = 3, count = 333;
     std::vector<TestFrame<T>> frames;
@@ -141,6 +142,35 @@ TYPED_TEST(TrimmedMean, OfMoreFramesThanFitAveragesGroupsFirst) {
         const double step = std::is_same_v<T, std::uint16_t> ? 0.5 : 0.002;
         EXPECT_NEAR(double(row[x]), reference(groups, 0.1), step);
     }
+}
+
+TEST(BinAccumulator, GroupsOfTenBitFramesKeepFractionsOfACode) {
+    FrameFormat format;
+    format.type = SampleType::u16;
+    format.bits = 10;
+    format.model = PixelModel::gray;
+    const int width = 40, height = 2, count = 320;  // four frames in each of 80 groups
+    BinAccumulator bin(format, {0, 0, width, height}, 0.1);
+    bin.begin(count);
+    std::vector<TestFrame<std::uint16_t>> frames(4);
+    for (int i = 0; i < 4; ++i) {
+        frames[std::size_t(i)].stride = width;
+        // One frame in four is a code higher; the last column is white, and above what 10 bits
+        // hold.
+        frames[std::size_t(i)].samples.assign(std::size_t(width * height), i == 0 ? 501 : 500);
+        for (int y = 0; y < height; ++y) {
+            frames[std::size_t(i)].at(width - 2, y) = 1023;
+            frames[std::size_t(i)].at(width - 1, y) = 60000;
+        }
+    }
+    for (int i = 0; i < count; ++i) {
+        bin.add(frame_of(frames[std::size_t(i % 4)], width, height, 1));
+    }
+    const PlaneSet means = bin.means();
+    const float* row = reinterpret_cast<const float*>(means.plane[0].data);
+    EXPECT_NEAR(row[0], 500.25, 0.01);
+    EXPECT_NEAR(row[width - 2], 1023, 0.01);
+    EXPECT_GE(row[width - 1], 1023);
 }
 
 TEST(BinAccumulator, SurvivesLostFrames) {

@@ -103,8 +103,12 @@ SrgbF apart_from(SrgbF v, const Gain& gain) {
 void JumpWatch::add(const Frame& frame) {
     const Plane& plane = frame.planes.plane[0];
     const bool limited = format_.model != PixelModel::rgb && !format_.full_range;
-    const double scale = plane.type == SampleType::f32 ? 1 : double((1 << format_.bits) - 1);
-    const double black = limited ? 16 * double(1 << std::max(format_.bits - 8, 0)) : 0;
+    const double step = double(1 << std::max(format_.bits - 8, 0));
+    const double black = limited ? 16 * step : 0;
+    // What white is above black: 219 steps of limited-range video [BT709], not 255.
+    const double scale = plane.type == SampleType::f32 ? 1
+                         : limited                     ? 219 * step
+                                                       : double((1 << format_.bits) - 1);
     now_.clear();
     switch (plane.type) {
         case SampleType::u8:
