@@ -89,6 +89,13 @@ class PlaneBin {
         }
         return means_.data();
     }
+    void codes(int drop, std::uint16_t* out) const {
+        if (grouped_) {
+            groups_->means(drop, 1, out);
+        } else {
+            single_.means(drop, scale_, out);
+        }
+    }
     int n() const { return n_; }
     int rows() const { return rows_; }
 
@@ -142,7 +149,8 @@ struct BinAccumulator::State {
     virtual void begin_planes(int k, bool grouped) = 0;
     virtual void flush() = 0;
     virtual void end_group() = 0;
-    virtual PlaneSet finish(int added) = 0;
+    virtual PlaneSet finish() = 0;
+    virtual void write_codes(std::uint16_t* out) = 0;
 
     FrameFormat format;
     Rect coded;
@@ -182,7 +190,7 @@ struct TypedState final : BinAccumulator::State {
     void end_group() override {
         for (auto& plane : planes) plane.end_group();
     }
-    PlaneSet finish(int) override {
+    PlaneSet finish() override {
         PlaneSet set;
         set.count = int(planes.size());
         for (std::size_t p = 0; p < planes.size(); ++p) {
@@ -197,6 +205,12 @@ struct TypedState final : BinAccumulator::State {
                             SampleType::f32};
         }
         return set;
+    }
+    void write_codes(std::uint16_t* out) override {
+        for (const PlaneBin<T>& plane : planes) {
+            plane.codes(rule.dropped(plane.values()), out);
+            out += std::size_t(plane.n()) * std::size_t(plane.rows());
+        }
     }
     std::vector<PlaneBin<T>> planes;
 };
@@ -265,7 +279,13 @@ int BinAccumulator::count() const {
 PlaneSet BinAccumulator::means() {
     state_->flush();
     state_->end_group();
-    return state_->finish(state_->added);
+    return state_->finish();
+}
+
+void BinAccumulator::codes(std::uint16_t* out) {
+    state_->flush();
+    state_->end_group();
+    state_->write_codes(out);
 }
 
 }  // namespace verdigris

@@ -3,6 +3,7 @@
 // the planes as coded; color is made afterwards, once per bin.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -41,6 +42,9 @@ class BinAccumulator {
     int count() const;
     /// Trimmed means as f32 planes in code values, valid until the next begin(). Needs count() > 0.
     PlaneSet means();
+    /// The means of integer samples as 16-bit codes with 16 - format.bits bits behind the point,
+    /// plane after plane as in SampleLayout. Needs count() > 0.
+    void codes(std::uint16_t* out);
 
     struct State;
 

@@ -13,8 +13,8 @@ namespace verdigris {
 namespace {
 
 // chosen: up to this many crop pixels the probe is the whole sample; beyond, bands of together
-// kProbePixels source pixels: 5e4 differences per sample, of which a few samples suffice.
-constexpr int kWholeProbe = 1 << 17, kProbePixels = 1 << 14;
+// kProbePixels source pixels: 2e4 differences per sample, of which a few samples suffice.
+constexpr int kWholeProbe = 1 << 17, kProbePixels = 1 << 13;
 constexpr int kBands = 8;
 
 // Makes a part of the samples: rows [begin, end) of the output.
@@ -34,6 +34,7 @@ class PartMaker {
     void begin(int expected) { bin_->begin(expected); }
     void add(const Frame& frame) { bin_->add(frame); }
     int count() const { return bin_->count(); }
+    void codes(SampleCodes& out) { bin_->codes(out.data()); }
     Image<SrgbF> image() {
         Image<SrgbF> source = srgb_from_part(bin_->means(), coded_, format_, shown_);
         if (resampling_.identity()) return source;
@@ -54,6 +55,16 @@ void copy_rows(const Image<SrgbF>& from, int from_row, Image<SrgbF>& to, int to_
     }
 }
 
+// Samples that are frames' own pixels are stored as the frames are coded: half the size, and no
+// color to be made.
+SampleLayout layout_of_samples(const FrameFormat& format, const BinningPlan& plan) {
+    const bool resampled = plan.width != plan.crop.width || plan.height != plan.crop.height;
+    if (resampled || format.model != PixelModel::yuv || format.type == SampleType::f32) {
+        return rgb_layout(plan.width, plan.height);
+    }
+    return plane_layout(format, plan.crop);
+}
+
 class Binner {
   public:
     Binner(const Recording& recording, const BinningPlan& plan)
@@ -63,7 +74,8 @@ class Binner {
           noise_(plan.width, probe_.rows),
           jumps_(recording.info().format),
           full_(needed_in_full()),
-          line_(kept_bins(), plan.width, plan.height, plan.store, plan.specimen.empty()),
+          layout_(layout_of_samples(recording.info().format, plan)),
+          line_(kept_bins(), layout_, plan.store, plan.specimen.empty()),
           whole_(recording.info().format, plan, 0, plan.height) {
         for (const auto& [begin, end] : probe_.bands) {
             bands_.emplace_back(recording.info().format, plan, begin, end);
@@ -127,19 +139,27 @@ class Binner {
         if (current_ < 0) return;
         auto probe = Image<SrgbF>::for_overwrite(plan_.width, probe_.rows);
         int row = 0;
-        if (full_[std::size_t(current_)]) {
-            Image<SrgbF> sample = whole_.image();
-            for (const auto& [begin, end] : probe_.bands) {
-                copy_rows(sample, begin, probe, row, end - begin);
-                row += end - begin;
-            }
-            line_.give(current_, whole_.count(), std::move(sample));
-        } else {
+        const auto take = [&](const Image<SrgbF>& from, int first, int rows) {
+            copy_rows(from, first, probe, row, rows);
+            row += rows;
+        };
+        if (!full_[std::size_t(current_)]) {
             for (PartMaker& band : bands_) {
                 const Image<SrgbF> part = band.image();
-                copy_rows(part, 0, probe, row, part.height());
-                row += part.height();
+                take(part, 0, part.height());
             }
+        } else if (layout_.is_rgb()) {
+            const Image<SrgbF> sample = whole_.image();
+            for (const auto& [begin, end] : probe_.bands) take(sample, begin, end - begin);
+            pack_rgb(sample, line_.buffer());
+            line_.give(current_, whole_.count());
+        } else {
+            SampleCodes& codes = line_.buffer();
+            whole_.codes(codes);
+            for (const auto& [begin, end] : probe_.bands) {
+                take(rows_of_sample(layout_, codes.data(), begin, end), 0, end - begin);
+            }
+            line_.give(current_, whole_.count());
         }
         noise_.add(current_, probe);
     }
@@ -150,6 +170,7 @@ class Binner {
     NoiseMeter noise_;
     JumpWatch jumps_;
     std::vector<bool> full_;
+    SampleLayout layout_;
     SampleLine line_;
     PartMaker whole_;
     std::vector<PartMaker> bands_;

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 
-#include "verdigris/color/convert.h"
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/npy.h"
 #include "verdigris/files/png.h"
+#include "verdigris/observe/layout_json.h"
 #include "verdigris/observe/sample_store.h"
 
 namespace verdigris {
@@ -18,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "verdigris-observation";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;  // 2: samples may be stored as the planes they were coded in
 
 Json json_of(Rect r) {
     return Json::array({r.x, r.y, r.width, r.height});
@@ -112,15 +114,15 @@ Observation observation_from(const Json& j) {
     return o;
 }
 
+// Of samples that are in memory or in an unnamed file: always as encoded sRGB.
 void write_samples(const Observation& o, const std::filesystem::path& target) {
     NpyWriter writer(target, NpyType::u16,
                      {std::size_t(o.height()), std::size_t(o.width()), std::size_t(3)});
     for (int i = 0; i < o.store->count(); ++i) {
         const Image<SrgbF> image = o.store->image(i);
-        auto codes = Image<SrgbU16>::for_overwrite(image.width(), image.height());
-        std::transform(image.pixels().begin(), image.pixels().end(), codes.pixels().begin(),
-                       [](SrgbF c) { return u16_from_srgb(c); });
-        writer.append(std::as_bytes(codes.pixels()));
+        SampleCodes codes(3 * image.pixel_count());
+        pack_rgb(image, codes);
+        writer.append(std::as_bytes(std::span(codes)));
     }
     writer.commit();
 }
@@ -164,14 +166,19 @@ void write_observation(const Observation& o, const std::filesystem::path& folder
     const std::filesystem::path samples = folder / "samples.npy";
     std::error_code ignored;
     const std::filesystem::path behind = path_of(*o.store);
-    if (behind.empty() || !std::filesystem::equivalent(behind, samples, ignored)) {
+    SampleLayout layout = rgb_layout(o.width(), o.height());
+    if (!behind.empty() && std::filesystem::equivalent(behind, samples, ignored)) {
+        layout = layout_of(*o.store);
+    } else {
         write_samples(o, samples);
     }
     write_png(folder / "specimen.png", o.specimen);
     write_png(folder / "clipped.png", o.clipped);
     // Last, so that a folder with an observation.json is complete.
+    Json j = json_of(o);
+    j["stored_as"] = json_of(layout);
     write_file(folder / "observation.json",
-               json_of(o).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+               j.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 Observation read_observation(const std::filesystem::path& folder) {
@@ -179,6 +186,7 @@ Observation read_observation(const std::filesystem::path& folder) {
     const std::string text = read_text(file);
     Observation o;
     int width = 0, height = 0;
+    std::optional<SampleLayout> layout;
     try {
         const Json j = Json::parse(text);
         if (!j.is_object() || j.value("format", "") != kFormat) {
@@ -190,12 +198,18 @@ Observation read_observation(const std::filesystem::path& folder) {
         width = j.at("width").get<int>();
         height = j.at("height").get<int>();
         o = observation_from(j);
+        if (j.contains("stored_as") && j.at("stored_as").at("model") != "srgb") {
+            layout = layout_from(j.at("stored_as"));
+        }
+    } catch (const Error& e) {
+        if (!e.where().empty()) throw;
+        bad(file, e.sentence());
     } catch (const nlohmann::json::exception& e) {
         bad(file, std::string("cannot be understood: ") + e.what());
     }
     check(o, file);
     const std::filesystem::path samples = folder / "samples.npy";
-    o.store = open_samples(samples);
+    o.store = open_samples(samples, layout ? &*layout : nullptr);
     if (o.store->width() != width || o.store->height() != height ||
         o.store->count() != int(o.samples.size())) {
         bad(samples, "has another size than observation.json says");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-// An Observation on disk: observation.json, samples.npy (T, H, W, 3; uint16 encoded sRGB),
-// specimen.png, clipped.png.
+// An Observation on disk: observation.json, samples.npy, specimen.png, clipped.png.
+// samples.npy holds uint16: of shape (T, H, W, 3) encoded sRGB, or, of video at its own size, of
+// shape (T, N) the planes of each sample as coded ("stored_as" in observation.json says how;
+// docs/models/observe.md has the arithmetic). That is half the size, and no color is made of
+// samples that nobody looks at.
 #pragma once
 
 #include <filesystem>

@@ -13,6 +13,8 @@
 #include "verdigris/files/png.h"
 #include "verdigris/observe/testing/made_scene.h"
 #include "verdigris/recording/memory_recording.h"
+#include "verdigris/recording/recording.h"
+#include "verdigris/recording/testing/made_video.h"
 
 namespace verdigris {
 namespace {
@@ -109,6 +111,38 @@ TEST_F(ObservationIo, ComesBackAsItWas) {
     expect_equal(made(false), read_observation(folder_));
 }
 
+// Video is stored as the planes it was coded in; resampled video as color.
+TEST_F(ObservationIo, OfVideoComesBackAsItWas) {
+    if (!testing::have_ffmpeg()) GTEST_SKIP() << "the ffmpeg program makes the video";
+    const std::filesystem::path clip = folder_ / "clip.mkv";
+    ASSERT_TRUE(testing::make_pattern(clip, 24, 8, "-c:v ffv1"));
+    for (const int size : {0, 90}) {
+        ObserveOptions options;
+        options.crop.mode = CropMode::manual;
+        options.crop.rect = {31, 17, 201, 133};
+        options.size = size;
+        const Observation temporary = observe(open_recording(clip), options);
+        options.store = folder_ / "samples.npy";
+        const Observation written = observe(open_recording(clip), options);
+        write_observation(written, folder_);
+        expect_equal(temporary, written);
+        expect_equal(written, read_observation(folder_));
+        const NpyFile npy(folder_ / "samples.npy");
+        EXPECT_EQ(npy.shape().size(), size == 0 ? 2u : 4u);
+        EXPECT_EQ(npy.shape()[0], 24u);
+        // Elsewhere it becomes color, whatever it was.
+        const std::filesystem::path copy = folder_ / "copy";
+        std::filesystem::create_directories(copy);
+        write_observation(temporary, copy);
+        const Observation back = read_observation(copy);
+        EXPECT_EQ(NpyFile(copy / "samples.npy").shape().size(), 4u);
+        const Image<SrgbF> a = written.store->image(23), b = back.store->image(23);
+        for (std::size_t i = 0; i < a.pixel_count(); ++i) {
+            ASSERT_NEAR(a.pixels()[i].g, b.pixels()[i].g, 0.51 / 65535);
+        }
+    }
+}
+
 TEST_F(ObservationIo, NamesTheFileThatIsMissingOrBroken) {
     EXPECT_NE(refusal().find("observation.json"), std::string::npos);
     write_observation(made(false), folder_);
@@ -120,7 +154,7 @@ TEST_F(ObservationIo, NamesTheFileThatIsMissingOrBroken) {
     std::ofstream(folder_ / "observation.json") << "[1, 2]";
     EXPECT_NE(refusal().find("is not an observation"), std::string::npos);
     std::string newer = json;
-    newer.replace(newer.find("\"version\": 1"), 12, "\"version\": 9");
+    newer.replace(newer.find("\"version\": 2"), 12, "\"version\": 9");
     std::ofstream(folder_ / "observation.json") << newer;
     EXPECT_NE(refusal().find("newer"), std::string::npos);
     std::string wide = json;

@@ -63,7 +63,7 @@ struct Sample {
     bool interpolated = false;  ///< the bin was empty: filled linearly from its neighbors
 };
 
-/// Kept samples, oldest first, stored as 16-bit encoded sRGB on disk and read on demand.
+/// Kept samples, oldest first, stored as 16-bit codes on disk and read on demand.
 class SampleStore {
   public:
     virtual ~SampleStore() = default;

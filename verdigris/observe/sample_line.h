@@ -3,6 +3,7 @@
 // saturated, hands them to the store.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -17,9 +18,8 @@ namespace verdigris {
 /// Where samples were saturated, and when. Per pixel: how often, and the two latest times.
 class ClipRecord {
   public:
-    ClipRecord() = default;
-    ClipRecord(int width, int height);
-    void add(int position, const Image<SrgbF>& sample);
+    explicit ClipRecord(const SampleLayout& layout);
+    void add(int position, const SampleCodes& sample);
     /// What must not steer a fit, of `count` samples: saturated in one of the last 10 (the longest
     /// context of the paper), in two of the last third, or in a 20th of all (the lamp's glint, even
     /// if the surface has become matte since). Dilated by one pixel: demosaicing and blur carry a
@@ -27,9 +27,13 @@ class ClipRecord {
     Mask mask(int count) const;
 
   private:
+    bool may_clip(const PlaneSet& planes, Rect tile) const;
+    void add_tile(std::uint16_t now, const PlaneSet& planes, Rect tile);
+
     struct History {
         std::uint16_t times = 0, latest = 0, before = 0;  ///< positions + 1
     };
+    SampleLayout layout_;
     Image<History> history_;
 };
 
@@ -37,11 +41,14 @@ class SampleLine {
   public:
     /// `bins`: the bins to keep, increasing. With `looking`, a look at the samples is taken as
     /// they pass.
-    SampleLine(std::vector<int> bins, int width, int height, const std::filesystem::path& store,
-               bool looking);
+    SampleLine(std::vector<int> bins, const SampleLayout& layout,
+               const std::filesystem::path& store, bool looking);
 
-    /// The image of a kept bin; bins in between that were not given are interpolated.
-    void give(int bin, int frames, Image<SrgbF> image);
+    /// Where the next sample to be given is made. Every code must be written.
+    SampleCodes& buffer();
+    /// What was made in buffer() is the sample of a kept bin; bins in between that were not given
+    /// are interpolated.
+    void give(int bin, int frames);
     /// Bins after the last given one are dropped.
     std::shared_ptr<const SampleStore> finish() { return sink_->finish(); }
 
@@ -55,13 +62,15 @@ class SampleLine {
     Mask clipped() const { return clips_.mask(int(kept_.size())); }
 
   private:
-    void emit(int bin, int frames, Image<SrgbF> image);
+    void emit(int bin, int frames, const SampleCodes& codes);
+    SampleLayout layout_;
     std::vector<int> bins_;
     std::size_t next_ = 0;  ///< into bins_
     std::unique_ptr<SampleSink> sink_;
     ClipRecord clips_;
     std::vector<Kept> kept_;
-    Image<SrgbF> last_;
+    std::array<SampleCodes, 2> buffers_;  ///< the last sample given, and the next
+    std::size_t last_ = 0;                ///< into buffers_
     int last_bin_ = -1;
     std::vector<int> look_at_;
     Look look_;

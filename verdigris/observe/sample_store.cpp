@@ -13,70 +13,47 @@
 #include <string>
 #include <vector>
 
-#include "verdigris/color/convert.h"
 #include "verdigris/error.h"
 #include "verdigris/files/npy.h"
-#include "verdigris/pixels/parallel_rows.h"
 
 namespace verdigris {
 namespace {
 
-constexpr int kRowsPerRun = 64;
-
-Image<SrgbU16> packed(const Image<SrgbF>& image) {
-    auto out = Image<SrgbU16>::for_overwrite(image.width(), image.height());
-    parallel_rows(image.height(), kRowsPerRun, [&](RowRun run) {
-        for (int y = run.begin; y < run.end; ++y) {
-            const float* from = &image.row(y)->r;
-            std::uint16_t* to = &out.row(y)->r;
-            for (int i = 0; i < 3 * image.width(); ++i) {  // as u16_from_srgb, but vectorizable
-                const float v = from[i] > 0 ? std::min(from[i], 1.0f) : 0.0f;
-                to[i] = std::uint16_t(int(v * 65535.0f + 0.5f));
-            }
-        }
-    });
-    return out;
-}
-
-Image<SrgbF> unpacked(const SrgbU16* from, int width, int height) {
-    auto out = Image<SrgbF>::for_overwrite(width, height);
-    parallel_rows(height, kRowsPerRun, [&](RowRun run) {
-        for (int y = run.begin; y < run.end; ++y) {
-            const std::uint16_t* in = &from[std::size_t(y) * std::size_t(width)].r;
-            float* to = &out.row(y)->r;
-            for (int i = 0; i < 3 * width; ++i) to[i] = float(in[i]) / 65535.0f;
-        }
-    });
-    return out;
-}
-
 class NpyStore final : public SampleStore {
   public:
-    explicit NpyStore(const std::filesystem::path& path) : path_(path), file_(path) {
+    NpyStore(const std::filesystem::path& path, const SampleLayout* layout)
+        : path_(path), file_(path) {
         const auto& shape = file_.shape();
-        if (file_.type() != NpyType::u16 || shape.size() != 4 || shape[3] != 3 || shape[0] == 0 ||
-            shape[1] == 0 || shape[2] == 0 || std::max({shape[0], shape[1], shape[2]}) > 1u << 30) {
-            throw Error(ErrorCode::bad_input,
-                        "does not hold samples: 16-bit numbers of shape (samples, height, width, "
-                        "3) are expected",
-                        path.string());
+        bool fits = file_.type() == NpyType::u16 && shape.size() == 4 && shape[3] == 3;
+        std::string expected = "(samples, height, width, 3)";
+        if (layout && !layout->is_rgb()) {
+            fits = file_.type() == NpyType::u16 && shape.size() == 2 && shape[1] == layout->codes();
+            expected = "(samples, " + std::to_string(layout->codes()) + ")";
         }
+        for (const std::size_t n : shape) fits = fits && n > 0 && n <= 1u << 30;
+        if (!fits) {
+            throw Error(
+                ErrorCode::bad_input,
+                "does not hold samples: 16-bit numbers of shape " + expected + " are expected",
+                path.string());
+        }
+        layout_ = layout && !layout->is_rgb() ? *layout : rgb_layout(int(shape[2]), int(shape[1]));
     }
     int count() const override { return int(file_.shape()[0]); }
-    int height() const override { return int(file_.shape()[1]); }
-    int width() const override { return int(file_.shape()[2]); }
+    int height() const override { return layout_.height(); }
+    int width() const override { return layout_.width(); }
     Image<SrgbF> image(int index) const override {
-        const std::size_t size = std::size_t(width()) * std::size_t(height());
         const auto values = file_.values<std::uint16_t>();
-        static_assert(sizeof(SrgbU16) == 3 * sizeof(std::uint16_t));
-        return unpacked(reinterpret_cast<const SrgbU16*>(values.data()) + std::size_t(index) * size,
-                        width(), height());
+        return rows_of_sample(layout_, values.data() + std::size_t(index) * layout_.codes(), 0,
+                              height());
     }
     const std::filesystem::path& path() const { return path_; }
+    const SampleLayout& layout() const { return layout_; }
 
   private:
     std::filesystem::path path_;
     NpyFile file_;
+    SampleLayout layout_;
 };
 
 // A file without a name: it is gone when the last reader is.
@@ -124,100 +101,117 @@ class TemporaryFile {
 // Reads with pread, not through a mapping: mapped pages would count as this process's memory.
 class TemporaryStore final : public SampleStore {
   public:
-    TemporaryStore(std::shared_ptr<const TemporaryFile> file, int count, int width, int height)
-        : file_(std::move(file)), count_(count), width_(width), height_(height) {}
+    TemporaryStore(std::shared_ptr<const TemporaryFile> file, int count, const SampleLayout& layout)
+        : file_(std::move(file)), count_(count), layout_(layout) {}
     int count() const override { return count_; }
-    int width() const override { return width_; }
-    int height() const override { return height_; }
+    int width() const override { return layout_.width(); }
+    int height() const override { return layout_.height(); }
     Image<SrgbF> image(int index) const override {
-        auto codes = Image<SrgbU16>::for_overwrite(width_, height_);
-        file_->read(codes.row(0), codes.byte_count(), std::size_t(index) * codes.byte_count());
-        return unpacked(codes.row(0), width_, height_);
+        SampleCodes codes(layout_.codes());
+        const std::size_t bytes = codes.size() * sizeof(codes[0]);
+        file_->read(codes.data(), bytes, std::size_t(index) * bytes);
+        return rows_of_sample(layout_, codes.data(), 0, height());
     }
 
   private:
     std::shared_ptr<const TemporaryFile> file_;
-    int count_, width_, height_;
+    int count_;
+    SampleLayout layout_;
 };
 
-// One image is written while the next one is made.
+// One sample is written while the next one is made.
 class BackgroundSink : public SampleSink {
   public:
-    void append(Image<SrgbF> image) final {
+    void append(const SampleCodes& codes) final {
         wait();
         pending_ = std::async(std::launch::async,
-                              [this, held = std::move(image)] { write(packed(held)); });
+                              [this, held = std::as_bytes(std::span(codes))] { write(held); });
+    }
+    void wait() final {
+        if (pending_.valid()) pending_.get();
     }
     ~BackgroundSink() override = default;
 
   protected:
-    virtual void write(const Image<SrgbU16>& codes) = 0;
+    virtual void write(std::span<const std::byte> codes) = 0;
     /// Derived destructors call this before their members go.
     void settle() noexcept {
         if (pending_.valid()) pending_.wait();
-    }
-    void wait() {
-        if (pending_.valid()) pending_.get();
     }
 
   private:
     std::future<void> pending_;
 };
 
+std::vector<std::size_t> npy_shape(const SampleLayout& layout) {
+    if (!layout.is_rgb()) return {layout.codes()};
+    return {std::size_t(layout.height()), std::size_t(layout.width()), std::size_t(3)};
+}
+
 class NpySink final : public BackgroundSink {
   public:
-    NpySink(const std::filesystem::path& path, int width, int height)
-        : path_(path),
-          writer_(path, NpyType::u16, {std::size_t(height), std::size_t(width), std::size_t(3)}) {}
+    NpySink(const std::filesystem::path& path, const SampleLayout& layout)
+        : path_(path), layout_(layout), writer_(path, NpyType::u16, npy_shape(layout)) {}
     ~NpySink() override { settle(); }
     std::shared_ptr<const SampleStore> finish() override {
         wait();
         writer_.commit();
-        return std::make_shared<NpyStore>(path_);
+        return std::make_shared<NpyStore>(path_, &layout_);
     }
 
   private:
-    void write(const Image<SrgbU16>& codes) override {
-        writer_.append(std::as_bytes(codes.pixels()));
-    }
+    void write(std::span<const std::byte> codes) override { writer_.append(codes); }
     std::filesystem::path path_;
+    SampleLayout layout_;
     NpyWriter writer_;
 };
 
 class TemporarySink final : public BackgroundSink {
   public:
-    TemporarySink(int width, int height)
-        : file_(std::make_shared<TemporaryFile>()), width_(width), height_(height) {}
+    explicit TemporarySink(const SampleLayout& layout)
+        : file_(std::make_shared<TemporaryFile>()), layout_(layout) {}
     ~TemporarySink() override { settle(); }
     std::shared_ptr<const SampleStore> finish() override {
         wait();
-        return std::make_shared<TemporaryStore>(file_, count_, width_, height_);
+        return std::make_shared<TemporaryStore>(file_, count_, layout_);
     }
 
   private:
-    void write(const Image<SrgbU16>& codes) override {
-        file_->write(codes.row(0), codes.byte_count(), std::size_t(count_) * codes.byte_count());
+    void write(std::span<const std::byte> codes) override {
+        file_->write(codes.data(), codes.size(), std::size_t(count_) * codes.size());
         ++count_;
     }
     std::shared_ptr<const TemporaryFile> file_;
-    int count_ = 0, width_, height_;
+    int count_ = 0;
+    SampleLayout layout_;
 };
+
+const NpyStore* npy_store(const SampleStore& store) {
+    return dynamic_cast<const NpyStore*>(&store);
+}
 
 }  // namespace
 
-std::unique_ptr<SampleSink> make_sample_sink(const std::filesystem::path& store, int width,
-                                             int height) {
-    if (store.empty()) return std::make_unique<TemporarySink>(width, height);
-    return std::make_unique<NpySink>(store, width, height);
+std::unique_ptr<SampleSink> make_sample_sink(const std::filesystem::path& store,
+                                             const SampleLayout& layout) {
+    if (store.empty()) return std::make_unique<TemporarySink>(layout);
+    return std::make_unique<NpySink>(store, layout);
 }
 
-std::shared_ptr<const SampleStore> open_samples(const std::filesystem::path& path) {
-    return std::make_shared<NpyStore>(path);
+std::shared_ptr<const SampleStore> open_samples(const std::filesystem::path& path,
+                                                const SampleLayout* layout) {
+    return std::make_shared<NpyStore>(path, layout);
 }
 
 std::filesystem::path path_of(const SampleStore& store) {
-    const auto* npy = dynamic_cast<const NpyStore*>(&store);
+    const NpyStore* npy = npy_store(store);
     return npy ? npy->path() : std::filesystem::path{};
+}
+
+const SampleLayout& layout_of(const SampleStore& store) {
+    const NpyStore* npy = npy_store(store);
+    if (!npy) throw Error(ErrorCode::usage, "the samples are no file");
+    return npy->layout();
 }
 
 }  // namespace verdigris

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/observe/trimmed_plane.h"
 
+#include <algorithm>
 #include <cassert>
 #include <new>
 
@@ -60,14 +61,17 @@ void TrimmedPlane<T>::add(const std::vector<PlaneWindow<T>>& windows) {
     count_ += int(windows.size());
 }
 
+// `store(y, row)` gets each row of means.
 template <class T>
-void TrimmedPlane<T>::means(int drop, double scale, float* out) const {
+template <class Store>
+void TrimmedPlane<T>::mean_rows(int drop, double scale, const Store& store) const {
     assert(drop <= k_ && count_ > 2 * drop);
     const float factor = float(scale / (count_ - 2 * drop));
     parallel_rows(rows_, kRowsPerRun, [&](RowRun run) {
+        std::vector<float> means(static_cast<std::size_t>(n_));
+        float* to = means.data();
         for (int y = run.begin; y < run.end; ++y) {
             const TrimRow<T> state = row(y);
-            float* to = out + std::size_t(y) * std::size_t(n_);
             for (std::size_t x = 0; x < state.n; ++x) to[x] = float(state.sum[x]);
             // The sums of integers stay below 2^24 (80 * 65535 < 2^23), so float is exact here.
             for (int j = 0; j < drop; ++j) {
@@ -76,7 +80,23 @@ void TrimmedPlane<T>::means(int drop, double scale, float* out) const {
                 for (std::size_t x = 0; x < state.n; ++x) to[x] -= float(low[x]) + float(high[x]);
             }
             for (std::size_t x = 0; x < state.n; ++x) to[x] *= factor;
+            store(y, to);
         }
+    });
+}
+
+template <class T>
+void TrimmedPlane<T>::means(int drop, double scale, float* out) const {
+    mean_rows(drop, scale, [&](int y, const float* row) {
+        std::copy_n(row, n_, out + std::size_t(y) * std::size_t(n_));
+    });
+}
+
+template <class T>
+void TrimmedPlane<T>::means(int drop, double scale, std::uint16_t* out) const {
+    mean_rows(drop, scale, [&](int y, const float* row) {
+        std::uint16_t* to = out + std::size_t(y) * std::size_t(n_);
+        for (int x = 0; x < n_; ++x) to[x] = std::uint16_t(int(std::min(row[x] + 0.5f, 65535.0f)));
     });
 }
 

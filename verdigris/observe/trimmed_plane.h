@@ -36,8 +36,12 @@ class TrimmedPlane {
     /// The mean of what is left after dropping the `drop` <= k smallest and largest, times
     /// `scale`. `out` holds rows x samples_per_row, contiguous. Needs count() > 2 * drop.
     void means(int drop, double scale, float* out) const;
+    /// The same, rounded to 16 bits and limited to what they hold.
+    void means(int drop, double scale, std::uint16_t* out) const;
 
   private:
+    template <class Store>
+    void mean_rows(int drop, double scale, const Store& store) const;
     using Sum = typename TrimSum<T>::type;
     TrimRow<T> row(int y) const;
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "verdigris/recording/code_scale.h"
+
 namespace verdigris {
 namespace {
 
@@ -55,19 +57,11 @@ void load_interleaved(const Plane& plane, int x, int y, int n, float offset, flo
 
 CodedRow::CodedRow(const PlaneSet& part, Rect coded, const FrameFormat& format)
     : part_(part), coded_(coded), format_(format) {
-    // [BT601], [BT709], [BT2020]: quantization, here for any number of bits.
-    const double top = format.type == SampleType::f32 ? 1.0 : std::exp2(format.bits) - 1;
-    const double step = format.type == SampleType::f32 ? 1 / 255.0 : std::exp2(format.bits - 8);
-    const double middle = format.type == SampleType::f32 ? 0.5 : 128 * step;
-    offset_ = format.full_range ? 0.0f : float(16 * step);
-    gain_ = float(1 / (format.full_range ? top : 219 * step));
-    chroma_offset_ = float(middle);
-    chroma_gain_ = float(1 / (format.full_range ? top : 224 * step));
-    const double kr = format.kr, kb = format.kb, kg = 1 - kr - kb;
-    red_cr_ = float(2 * (1 - kr));
-    blue_cb_ = float(2 * (1 - kb));
-    green_cb_ = float(-2 * kb * (1 - kb) / kg);
-    green_cr_ = float(-2 * kr * (1 - kr) / kg);
+    const CodeScale scale(format);
+    offset_ = float(scale.offset), gain_ = float(scale.gain);
+    chroma_offset_ = float(scale.chroma_offset), chroma_gain_ = float(scale.chroma_gain);
+    red_cr_ = float(scale.red_cr), blue_cb_ = float(scale.blue_cb);
+    green_cb_ = float(scale.green_cb), green_cr_ = float(scale.green_cr);
 }
 
 void CodedRow::read(int x, int y, int n, SrgbF* out) {

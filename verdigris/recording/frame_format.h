@@ -21,6 +21,7 @@ struct FrameFormat {
     PixelModel model{PixelModel::rgb};
     SampleType type{SampleType::u8};
     int bits = 8;            ///< significant bits: 8, 10, 12, 16; f32 samples are unit scale
+    int fraction_bits = 0;   ///< more of them behind the point: means of frames, not frames
     bool full_range = true;  ///< else 16..235 (16..240 for chroma), scaled to `bits`
     double kr = 0.2126, kb = 0.0722;             ///< luma weights of the YUV matrix
     int chroma_shift_x = 0, chroma_shift_y = 0;  ///< 4:2:0 is 1, 1
