@@ -215,10 +215,10 @@ Observation observe(const Recording& recording, const ObserveOptions& options,
                                          interpolated, out.samples.size())});
     }
     if (int(out.samples.size()) < kFewSamples) {
-        out.notes.push_back({"few_frames", Severity::caution,
-                             fmt::format("only {} samples, one per unit; a forecast wants at "
-                                         "least {}",
-                                         out.samples.size(), kFewSamples)});
+        out.notes.push_back(
+            {"few_frames", Severity::caution,
+             fmt::format("only {} samples; a forecast wants at least {}, one per unit",
+                         out.samples.size(), kFewSamples)});
     }
 
     std::optional<double> sigma = binned.sigma_of(out.specimen);
