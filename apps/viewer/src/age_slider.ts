@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The age: a range input over observed and forecast units, the border between them, the trust
-// limit, a tick per delivered horizon, play.
+// limit, a tick per delivered horizon, play. The input holds a place on the track (age_scale.ts);
+// the age itself, in units, is kept here, so that what is set is what is read.
+import { type AgeScale, ageScale, toAge, toTrack } from "./age_scale";
 import { layTrack } from "./age_track";
 import { type ViewerDocument } from "./data";
 
@@ -25,23 +27,30 @@ export class AgeSlider {
   private readonly input = element<HTMLInputElement>("slider");
   private readonly readout = element<HTMLOutputElement>("readout");
   private readonly playButton = element<HTMLButtonElement>("play");
+  private readonly scale: AgeScale;
+  private current = 0;
   private playing = 0;
   private lastStep = 0;
 
   constructor(doc: ViewerDocument, readonly range: AgeRange, private readonly onAge: (age: number) => void) {
-    this.input.min = String(range.first);
-    this.input.max = String(range.last);
+    this.scale = ageScale(range.first, range.last);
+    this.input.min = "0";
+    this.input.max = "1";
     this.input.step = "any";
-    layTrack(doc, range, (unit) => { this.pause(); this.set(unit); });
-    this.input.addEventListener("input", () => { this.pause(); this.update(this.age); });
+    layTrack(doc, range, this.scale, (unit) => { this.pause(); this.set(unit); });
+    this.input.addEventListener("input", () => {
+      this.pause();
+      this.update(toAge(this.scale, Number(this.input.value)));
+    });
     this.playButton.addEventListener("click", () => this.toggle());
   }
 
-  get age(): number { return Number(this.input.value); }
+  get age(): number { return this.current; }
 
   set(age: number): void {
-    this.input.value = String(Math.min(Math.max(age, this.range.first), this.range.last));
-    this.update(this.age);
+    const held = Math.min(Math.max(age, this.range.first), this.range.last);
+    this.input.value = String(toTrack(this.scale, held));
+    this.update(held);
   }
 
   /** To the next multiple of the step: 0.5 from +3.2 is +3.5. */
@@ -57,7 +66,8 @@ export class AgeSlider {
     if (this.age >= this.range.last) this.set(this.range.first);
     this.lastStep = performance.now();
     this.show(true);
-    // chosen: the whole axis in 14 seconds. Who asked for less motion gets two steps a second.
+    // chosen: the whole axis in 14 seconds, in units and not along the track: at the break the metal
+    // must not seem to age slower. Who asked for less motion gets two steps a second.
     const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     const frame = (now: number) => {
       const past = Math.max(now - this.lastStep, 0);
@@ -84,6 +94,7 @@ export class AgeSlider {
   }
 
   private update(age: number): void {
+    this.current = age;
     const beyond = age > this.range.trust;
     this.input.setAttribute("aria-valuetext",
       ageText(age) + (beyond ? ", beyond what the context supports" : ""));
