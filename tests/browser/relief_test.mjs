@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import { PNG } from "pngjs";
-import { executable, openPage, withBrowser } from "./browser.mjs";
+import { drawn, executable, openPage, withBrowser } from "./browser.mjs";
 import { suite } from "./suite.mjs";
 import { encodeBlob, makeDocument } from "./synthetic.mjs";
 
@@ -62,7 +62,7 @@ await withBrowser(async (context) => {
         for (let i = 0; i < 26; i++) await page.keyboard.press("ArrowRight");
         await page.evaluate(() => document.activeElement.blur());
       }
-      await page.waitForTimeout(500);
+      await drawn(page);
       const shot = await page.locator("#view").screenshot(
         shots ? { path: path.join(shots, `relief_${kind}_${name.replace(/\W+/g, "_")}.png`) } : {});
       (pictures[name] ??= {})[kind] = PNG.sync.read(shot);

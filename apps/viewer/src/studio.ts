@@ -64,11 +64,7 @@ function studioRoom(): THREE.Scene {
 export class Studio {
   private readonly key = new THREE.DirectionalLight(0xfff4e6, 1.1);
   private readonly shadow: THREE.Mesh;
-  constructor(renderer: THREE.WebGLRenderer, private readonly scene: THREE.Scene) {
-    const pmrem = new THREE.PMREMGenerator(renderer);
-    // chosen: 0.006 rad of blur removes the cube map's stairs from a mirror-like reflection.
-    scene.environment = pmrem.fromScene(studioRoom(), 0.006, 0.1, 50).texture;
-    pmrem.dispose();
+  constructor(private readonly renderer: THREE.WebGLRenderer, private readonly scene: THREE.Scene) {
     scene.add(this.key);
     this.shadow = new THREE.Mesh(new THREE.PlaneGeometry(5, 5), new THREE.ShaderMaterial({
       vertexShader: boxVertex, transparent: true, depthWrite: false, toneMapped: false,
@@ -78,6 +74,15 @@ export class Studio {
     this.shadow.rotation.x = -Math.PI / 2;   // one-sided: from below it is not in the way
     scene.add(this.shadow);
     this.turn(0);
+  }
+
+  /** Before the first picture. The costliest step of the start, so a page without a stage skips it. */
+  setUp(): void {
+    if (this.scene.environment) return;
+    const pmrem = new THREE.PMREMGenerator(this.renderer);
+    // chosen: 0.006 rad of blur removes the cube map's stairs from a mirror-like reflection.
+    this.scene.environment = pmrem.fromScene(studioRoom(), 0.006, 0.1, 50).texture;
+    pmrem.dispose();
   }
 
   /** Turns all lights around the object; radians. */
