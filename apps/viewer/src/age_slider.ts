@@ -6,21 +6,29 @@ import { type AgeScale, ageScale, toAge, toTrack } from "./age_scale";
 import { layTrack } from "./age_track";
 import { type ViewerDocument } from "./data";
 
-export interface AgeRange { first: number; last: number; trust: number }
+/** `held`: the forecast is the last observed state at every age. */
+export interface AgeRange { first: number; last: number; trust: number; held: boolean }
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
 
-export function ageText(age: number): string {
+export function ageText(age: number, held: boolean): string {
   const units = Math.abs(age).toFixed(1);
   if (age <= -0.05) return `observed, ${units} units before the last frame`;
   if (age < 0.05) return "last observed frame";
-  return `forecast, +${units} accelerated units`;
+  // Else a picture that stays the same would look like a forecast that nothing will happen.
+  return `forecast, +${units} accelerated units` + (held ? ", held" : "");
 }
 
 /** The same for a corner of the picture. */
-export function shortAge(age: number): string {
+export function shortAge(age: number, held: boolean): string {
   if (Math.abs(age) < 0.05) return "last observed";
-  return age < 0 ? `observed, \u2212${(-age).toFixed(1)}` : `forecast, +${age.toFixed(1)}`;
+  if (age < 0) return `observed, \u2212${(-age).toFixed(1)}`;
+  return `forecast, +${age.toFixed(1)}` + (held ? ", held" : "");
+}
+
+/** The color that goes with an age. */
+export function ageTone(age: number, range: AgeRange): "observed" | "forecast" | "beyond" {
+  return age < 0.05 ? "observed" : age > range.trust ? "beyond" : "forecast";
 }
 
 export class AgeSlider {
@@ -96,10 +104,11 @@ export class AgeSlider {
   private update(age: number): void {
     this.current = age;
     const beyond = age > this.range.trust;
+    const text = ageText(age, this.range.held);
     this.input.setAttribute("aria-valuetext",
-      ageText(age) + (beyond ? ", beyond what the context supports" : ""));
-    this.readout.textContent = ageText(age);
-    this.readout.className = age <= -0.05 ? "observed" : beyond ? "beyond" : age >= 0.05 ? "forecast" : "";
+      text + (beyond ? ", beyond what the context supports" : ""));
+    this.readout.textContent = text;
+    this.readout.className = Math.abs(age) < 0.05 ? "" : ageTone(age, this.range);
     element("caution").hidden = !beyond;
     this.onAge(age);
   }

@@ -40,6 +40,7 @@ const kBoxes: SoftBox[] = [
   { size: [1.3, 8], at: [7.6, 0.8, 1.0], light: 8, tint: 0xe8f1ff },     // edge strip, a little cool
   { size: [6, 4], at: [3.2, 2.4, 8.2], light: 1.3, tint: 0xffffff },     // fill, behind the camera
   { size: [9, 1.6], at: [0, 2.6, -8.2], light: 4, tint: 0xf4f7ff },      // rim
+  { size: [7, 5], at: [-4.2, -1.4, 7.4], light: 0.8, tint: 0xffffff },    // what a sheet met at an angle mirrors
   { size: [5, 1.4], at: [-2, -4.6, 6.6], light: 0.9, tint: 0xffe9d6 },   // reflector on the floor
 ];
 
