@@ -196,6 +196,19 @@ await withBrowser(async (context) => {
     await page.close();
   });
 
+  await test("a forecast that holds still says so; coverage from the start too", async () => {
+    const made = makeDocument({ order: 0 });
+    made.doc.material.observed_is_clean = false;
+    const { page } = await openPage(context, await page_of(made.doc, "still"), { stage: false });
+    const words = async () => [await page.locator("#badge").textContent(), await page.locator("#readout").textContent()];
+    assert.deepEqual(await words(), ["observed", "last observed frame"]);
+    await page.evaluate(() => window.verdigris.setAge(5));
+    assert.deepEqual(await words(), ["forecast, held", "forecast, +5.0 accelerated units, held"]);
+    await page.keyboard.press("7");
+    assert.equal(await page.locator("#legend-low").textContent(), "as at the start");
+    await page.close();
+  });
+
   await test("play moves the age and pauses", async () => {
     const { page } = await page_at_rest();
     const age = () => page.evaluate(() => window.verdigris.age);
@@ -322,6 +335,9 @@ await withBrowser(async (context) => {
       .filter((e) => e.offsetParent && !e.closest("#maps"))
       .every((e) => e.getBoundingClientRect().right <= window.innerWidth + 8));
     assert.ok(reach, "a control lies outside the screen");
+    await page.keyboard.press("7");
+    const picked = await page.getByRole("button", { name: "Coverage", exact: true }).boundingBox();
+    assert.ok(picked.x >= 0 && picked.x + picked.width <= 390, "the map that a key picked is out of sight");
     if (shots) await page.screenshot({ path: path.join(shots, "phone.png") });
   });
 });
