@@ -28,9 +28,15 @@ export async function withBrowser(work) {
   }
 }
 
-/** Opens a page from the file system; collects console complaints and network requests. */
-export async function openPage(context, file) {
+/**
+ * Opens a page from the file system; collects console complaints and network requests. Without a
+ * stage the window is so low that the controls leave no room for the picture: the page then draws
+ * none, and the seconds of its lighting in software are saved where only maps or words are of
+ * interest.
+ */
+export async function openPage(context, file, { stage = true } = {}) {
   const page = await context.newPage();
+  if (!stage) await page.setViewportSize({ width: 760, height: 60 });
   const complaints = [], requests = [];
   page.on("console", (m) => {
     // Chromium's own remarks about software rendering are not the page's.
@@ -48,11 +54,35 @@ export async function openPage(context, file) {
   return { page, complaints, requests };
 }
 
-/** A map as the GPU computed it, at an age. */
-export async function readMap(page, age, name) {
-  return page.evaluate(([a, n]) => {
+/** Maps as the GPU computed them, at an age: {name: {width, height, channels, data}}. */
+export async function readMaps(page, age, names) {
+  const maps = await page.evaluate(([a, wanted]) => {
     window.verdigris.setAge(a);
-    const m = window.verdigris.readMap(n);
-    return { width: m.width, height: m.height, channels: m.channels, data: Array.from(m.data) };
-  }, [age, name]);
+    const text = (floats) => {   // base64: as JSON a million numbers take longer than the maps
+      const bytes = new Uint8Array(floats.buffer), parts = [];
+      for (let i = 0; i < bytes.length; i += 32768) {
+        parts.push(String.fromCharCode(...bytes.subarray(i, i + 32768)));
+      }
+      return btoa(parts.join(""));
+    };
+    return wanted.map((name) => {
+      const m = window.verdigris.readMap(name);
+      return [name, { ...m, data: text(m.data) }];
+    });
+  }, [age, names]);
+  return Object.fromEntries(maps.map(([name, m]) => {
+    const bytes = Uint8Array.from(Buffer.from(m.data, "base64"));   // a copy: its start is aligned
+    return [name, { ...m, data: new Float32Array(bytes.buffer) }];
+  }));
+}
+
+/** One map as above. */
+export async function readMap(page, age, name) {
+  return (await readMaps(page, age, [name]))[name];
+}
+
+/** Until what was asked for before is drawn: the page redraws in the next frame. */
+export async function drawn(page) {
+  await page.evaluate(() => new Promise((done) =>
+    requestAnimationFrame(() => requestAnimationFrame(() => done()))));
 }

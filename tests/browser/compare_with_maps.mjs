@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readdir, readFile } from "node:fs/promises";
 import path from "node:path";
 import { PNG } from "pngjs";
-import { executable, openPage, readMap, withBrowser } from "./browser.mjs";
+import { drawn, executable, openPage, readMaps, withBrowser } from "./browser.mjs";
 
 if (!executable) {
   console.log("skipped: no Chromium found (set VERDIGRIS_CHROMIUM)");
@@ -37,7 +37,8 @@ function compare(got, png, channels) {
 }
 
 await withBrowser(async (context) => {
-  const { page, complaints, requests } = await openPage(context, path.join(out, "viewer.html"));
+  const { page, complaints, requests } = await openPage(context, path.join(out, "viewer.html"),
+    { stage: Boolean(shots) });
   assert.deepEqual(complaints, []);
   assert.deepEqual(requests, []);
   assert.equal(await page.locator("#fault").isVisible(), false, await page.locator("#fault").textContent());
@@ -49,10 +50,11 @@ await withBrowser(async (context) => {
     const pack = packs.find((p) => p.endsWith("_" + label(horizon)));
     assert.ok(pack, `no texture pack for ${label(horizon)} among ${packs}`);
     const folder = path.join(out, "textures", pack);
+    const maps = await readMaps(page, horizon, ["albedo", "roughness", "metallic", "normal", "coverage"]);
     for (const [map, suffix, channels] of [["albedo", "_Color.png", [0, 1, 2]], ["roughness", "_Roughness.png", [0]],
       ["metallic", "_Metalness.png", [0]], ["normal", "_NormalGL.png", [0, 1, 2]]]) {
       const png = await load(await find(folder, suffix));
-      const got = await readMap(page, horizon, map);
+      const got = maps[map];
       if (got.width !== png.width || got.height !== png.height) {
         console.log(`skipped ${map}: the viewer's copy is reduced (${got.width}x${got.height})`);
         continue;
@@ -65,7 +67,7 @@ await withBrowser(async (context) => {
     }
     if (horizon > 0) {
       const png = await load(path.join(out, "material", `coverage_${label(horizon)}.png`));
-      const got = await readMap(page, horizon, "coverage");
+      const got = maps.coverage;
       if (got.width === png.width) {
         const { mean, worst } = compare(got, png, [0]);
         console.log(`+${horizon} coverage: mean ${(mean * 255).toFixed(3)}/255, worst ${(worst * 255).toFixed(2)}/255`);
@@ -77,7 +79,7 @@ await withBrowser(async (context) => {
   assert.ok(compared > 0, "nothing was compared");
   if (shots) {
     const last = info.horizons[info.horizons.length - 1];
-    const shoot = async (name) => { await page.waitForTimeout(400); await page.screenshot({ path: path.join(shots, name) }); };
+    const shoot = async (name) => { await drawn(page); await page.screenshot({ path: path.join(shots, name) }); };
     await page.evaluate(() => window.verdigris.setAge(0));
     await shoot("sphere_observed.png");
     await page.evaluate((h) => window.verdigris.setAge(h), last);

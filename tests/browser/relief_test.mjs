@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import { PNG } from "pngjs";
-import { executable, openPage, withBrowser } from "./browser.mjs";
+import { drawn, executable, openPage, withBrowser } from "./browser.mjs";
 import { suite } from "./suite.mjs";
 import { encodeBlob, makeDocument } from "./synthetic.mjs";
 
@@ -58,11 +58,12 @@ await withBrowser(async (context) => {
       for (const key of keys) await page.keyboard.press(key);
       if (behind) {
         await page.locator("#light").fill("180");
-        await page.locator("#view").focus();
-        for (let i = 0; i < 26; i++) await page.keyboard.press("ArrowRight");
-        await page.evaluate(() => document.activeElement.blur());
+        // 26 times ArrowRight on the picture, in one go: each press by itself waits for a picture.
+        await page.locator("#view").evaluate((view) => {
+          for (let i = 0; i < 26; i++) view.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
+        });
       }
-      await page.waitForTimeout(500);
+      await drawn(page);
       const shot = await page.locator("#view").screenshot(
         shots ? { path: path.join(shots, `relief_${kind}_${name.replace(/\W+/g, "_")}.png`) } : {});
       (pictures[name] ??= {})[kind] = PNG.sync.read(shot);

@@ -17,12 +17,13 @@ export async function suite(templateFile) {
       return file;
     },
     async test(name, work) {
+      const start = performance.now(), took = () => `(${((performance.now() - start) / 1000).toFixed(1)} s)`;
       try {
         await work();
-        console.log(`ok    ${name}`);
+        console.log(`ok    ${name} ${took()}`);
       } catch (error) {
         failures++;
-        console.log(`FAIL  ${name}\n      ${error.message}`);
+        console.log(`FAIL  ${name} ${took()}\n      ${error.message}`);
       }
     },
     async done() {

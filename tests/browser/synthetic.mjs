@@ -42,7 +42,8 @@ export const kMaterial = { coverage_exponent: 0.85, roughness_clean: 0.16, rough
   metallic_gamma: 1.25, height_patina_weight: 0.45, height_sigma: 1.0, micro_sigma: 2.0,
   micro_range: 0.02, normal_scale: 2.6, normal_gain: 8, tau: 0.01, normalizer: 0.2, reference_horizon: 20, observed_is_clean: true };
 
-export function makeDocument({ width = 37, height = 29, order = 1, clamp = true, kind = "law", title = "made plate" }) {
+export function makeDocument({ width = 37, height = 29, order = 1, clamp = true, kind = "law", title = "made plate",
+  material: changed = {} }) {
   const next = random(7 + order), n = width * height, reach = 9;
   const base = [], rate = [], curvature = [], canvas = [], zone = [], active = [], fill = [];
   for (let i = 0; i < n; i++) {
@@ -61,7 +62,7 @@ export function makeDocument({ width = 37, height = 29, order = 1, clamp = true,
     active.push(inside && !(x > 14 && x < 18) ? 1 : 0);
     fill.push(x > 14 && x < 18 ? 0.4 : -1);
   }
-  const material = { ...kMaterial };
+  const material = { ...kMaterial, ...changed };
   const put = (values, channels) => encodeBlob(values, channels, width, height);
   const b = { base: put(base, 3), rate: put(rate, 3), curvature: put(curvature, 3), canvas: put(canvas, 3),
     zone: put(zone, 1), active: put(active, 1), fill: put(fill, 1) };
@@ -132,6 +133,7 @@ export function reference({ doc, truth }, h) {
   }
   const clampAt = (v, hi) => Math.min(Math.max(v, 0), hi - 1);
   const gaussian = (image, sigma) => {
+    if (sigma === 0) return image;
     const r = Math.ceil(3 * sigma), taps = [];
     for (let i = -r; i <= r; i++) taps.push(Math.exp(-0.5 * (i / sigma) ** 2));
     const sum = taps.reduce((a, b) => a + b);

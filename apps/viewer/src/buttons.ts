@@ -20,5 +20,7 @@ export class ButtonRow<T extends string> {
   }
   press(name: T): void {
     for (const [n, b] of this.buttons) b.setAttribute("aria-pressed", String(n === name));
+    // On a phone the row scrolls: what a key picked must be in sight.
+    this.buttons.get(name)?.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 }

@@ -8,15 +8,21 @@ export const kMaps = ["lit", "albedo", "normal", "roughness", "metallic", "heigh
 export type MapView = (typeof kMaps)[number];
 
 /** How to read a map. `scale`: what its two ends mean, for those that are one number. */
-export const kMapNotes: Record<MapView, { note: string; scale?: [string, string] }> = {
+const kMapNotes: Record<MapView, { note: string; scale?: [string, string] }> = {
   lit: { note: "" },
-  albedo: { note: "Color without the light: the forecast frame itself." },
+  albedo: { note: "The frame itself; the light it was recorded in is still in it." },
   normal: { note: "Which way the surface faces: red to the right, green up." },
   roughness: { note: "", scale: ["mirror-smooth", "matte"] },
   metallic: { note: "", scale: ["patina", "bare metal"] },
   height: { note: "", scale: ["low", "high (relative)"] },
   coverage: { note: "", scale: ["as observed", "fully changed"] },
 };
+
+export function mapNote(view: MapView, observedIsClean: boolean): { note: string; scale?: [string, string] } {
+  // Where the clean state is the start, what was observed since counts as change too.
+  if (view === "coverage" && !observedIsClean) return { note: "", scale: ["as at the start", "fully changed"] };
+  return kMapNotes[view];
+}
 
 const kNearest = 32;        // chosen: a texel of a 256-pixel map is then about 100 screen pixels
 const kShowTexels = 5;      // screen pixels per texel from which texels are shown as squares

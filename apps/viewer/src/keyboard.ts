@@ -36,8 +36,12 @@ export function listen(actions: Actions): void {
     }
     if (target.id === "light" && /^(Arrow|Home|End|Page)/.test(key)) return;   // its own keys
     const { slider } = actions, step = e.shiftKey ? 5 : 0.5;
-    if (key === "ArrowLeft") slider.step(-step);
-    else if (key === "ArrowRight") slider.step(step);
+    // The browser's own keys on the slider would step along the track, not in units.
+    const onSlider = target.id === "slider";
+    if (onSlider && key === "PageDown") slider.step(-5);
+    else if (onSlider && key === "PageUp") slider.step(5);
+    else if (key === "ArrowLeft" || (onSlider && key === "ArrowDown")) slider.step(-step);
+    else if (key === "ArrowRight" || (onSlider && key === "ArrowUp")) slider.step(step);
     else if (key === "Home") slider.set(slider.range.first);
     else if (key === "End") slider.set(slider.range.last);
     else if (key === " " && target.tagName !== "BUTTON") slider.toggle();

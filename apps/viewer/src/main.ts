@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The page: document in, stage up, one redraw per change.
 import * as THREE from "three";
-import { AgeSlider, ageText, shortAge } from "./age_slider";
+import { AgeSlider, ageText, ageTone, shortAge } from "./age_slider";
 import { Bake, type MapName } from "./bake";
 import { ButtonRow } from "./buttons";
 import { PageFault, readDocument, type ViewerDocument } from "./data";
-import { FlatView, kMapNotes, kMaps, type MapView } from "./flat";
+import { FlatView, kMaps, mapNote, type MapView } from "./flat";
 import { FlatGestures } from "./flat_gestures";
 import { listen } from "./keyboard";
 import { fillHelp, fillPanel } from "./panel";
@@ -85,18 +85,19 @@ async function start(api: TestApi): Promise<void> {
   }
 
   const first = Math.min(specimen.firstUnit, 0);
-  const range = { first, last: specimen.lastUnit, trust: 2 * doc.context };
+  const held = doc.trajectory.kind === "law" && doc.trajectory.order === 0;
+  const range = { first, last: specimen.lastUnit, trust: 2 * doc.context, held };
   let spoken = 0;
   const say = (text: () => string, after: number) => {
     window.clearTimeout(spoken);
     spoken = window.setTimeout(() => { element("live").textContent = text(); }, after);
   };
   const slider = new AgeSlider(doc, range, (age) => {
-    const badge = element("badge");
-    badge.textContent = age >= 0.05 ? "forecast" : "observed";
-    badge.className = age >= 0.05 ? (age > range.trust ? "beyond" : "forecast") : "observed";
-    wipe.label(shortAge(age));
-    say(() => ageText(age), 600);
+    const badge = element("badge"), tone = ageTone(age, range);
+    badge.textContent = age < 0.05 ? "observed" : held ? "forecast, held" : "forecast";
+    badge.className = tone;
+    wipe.label(shortAge(age, held), tone);
+    say(() => ageText(age, held), 600);
     redraw();
   });
 
@@ -107,7 +108,7 @@ async function start(api: TestApi): Promise<void> {
     maps.press(name);
     stage.controls.enabled = name === "lit";
     gestures.on = name !== "lit";
-    const { note, scale } = kMapNotes[name];
+    const { note, scale } = mapNote(name, doc.material.observed_is_clean);
     element("legend").hidden = name === "lit";
     element("legend").classList.toggle("scaled", scale !== undefined);
     element("legend").dataset.map = name;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The words: which forecaster and why, the guards, what a unit is, how each map is known.
+import { ageScale } from "./age_scale";
 import { type ViewerDocument } from "./data";
 
 // Text goes in through textContent only: a hostile file name stays text.
@@ -35,6 +36,11 @@ export function fillPanel(doc: ViewerDocument): void {
   add(panel, "p", `One accelerated unit is a fixed fraction of the observed recording, which spans ` +
     `${doc.units_observed.toFixed(1)} of them. It is not calendar time: how fast a piece ages ` +
     `elsewhere cannot be read off this page.`);
+  const first = Math.min(...doc.observed.map((o) => o.unit), 0);
+  if (ageScale(first, Math.max(...doc.horizons, 1)).broken) {
+    add(panel, "p", "On the age axis the observed stretch is drawn tighter than the forecast: the " +
+      "scale changes at now, and the notches on both sides are the same number of units apart.");
+  }
 
   add(panel, "h2", "How each map is known");
   const table = add(panel, "dl", "", "origins");

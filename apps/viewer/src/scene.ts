@@ -58,6 +58,7 @@ export class Stage {
   }
 
   draw(bake: Bake): void {
+    this.studio.setUp();
     this.mesh.material = this.materialOf(bake);
     this.renderer.render(this.scene, this.camera);
   }

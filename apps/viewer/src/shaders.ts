@@ -100,33 +100,34 @@ void main() {
 }
 `;
 
+/** A Gaussian along one axis over what `float sample_at(ivec2)` gives; borders replicated. */
 const gaussian = `
 uniform ivec2 u_size;
 uniform float u_sigma;
-ivec2 inside(ivec2 at) { return clamp(at, ivec2(0), u_size - 1); }
-float weight_at(int i) { float t = float(i) / u_sigma; return exp(-0.5 * t * t); }
+float smoothed(ivec2 at, ivec2 along) {
+  int radius = int(ceil(3.0 * u_sigma));   // 0 where sigma is 0: only the middle, never divided
+  float sum = sample_at(at), weights = 1.0;
+  for (int i = 1; i <= radius; i++) {
+    float t = float(i) / u_sigma, w = exp(-0.5 * t * t);
+    ivec2 one = clamp(at - i * along, ivec2(0), u_size - 1);
+    ivec2 other = clamp(at + i * along, ivec2(0), u_size - 1);
+    sum += w * (sample_at(one) + sample_at(other));
+    weights += 2.0 * w;
+  }
+  return sum / weights;
+}
 `;
 
 /** Horizontal Gaussian of the luma (glints filled). */
 export const lumaAcross = `${header}
 uniform sampler2D u_frame, u_canvas;
 out vec4 result;
-${gaussian}
-float luma_of(ivec2 at) {
+float sample_at(ivec2 at) {
   float fill = texelFetch(u_canvas, at, 0).a;
   return fill >= 0.0 ? fill : dot(texelFetch(u_frame, at, 0).rgb, vec3(0.2126, 0.7152, 0.0722));
 }
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  int radius = int(ceil(3.0 * u_sigma));
-  float sum = 0.0, weights = 0.0;
-  for (int i = -radius; i <= radius; i++) {
-    float w = weight_at(i);
-    sum += w * luma_of(inside(at + ivec2(i, 0)));
-    weights += w;
-  }
-  result = vec4(sum / weights, 0.0, 0.0, 1.0);
-}
+${gaussian}
+void main() { result = vec4(smoothed(ivec2(gl_FragCoord.xy), ivec2(1, 0)), 0.0, 0.0, 1.0); }
 `;
 
 /** Vertical Gaussian, then the height: luma blended with the coverage. */
@@ -134,19 +135,13 @@ export const heightDown = `${header}
 uniform sampler2D u_across, u_frame;
 uniform float u_weight;
 out vec4 result;
+float sample_at(ivec2 at) { return texelFetch(u_across, at, 0).r; }
 ${gaussian}
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  int radius = int(ceil(3.0 * u_sigma));
-  float sum = 0.0, weights = 0.0;
-  for (int i = -radius; i <= radius; i++) {
-    float w = weight_at(i);
-    sum += w * texelFetch(u_across, inside(at + ivec2(0, i)), 0).r;
-    weights += w;
-  }
   float p = texelFetch(u_frame, at, 0).a;
-  float h = clamp((1.0 - u_weight) * sum / weights + u_weight * p, 0.0, 1.0);
-  result = vec4(h, 0.0, 0.0, 1.0);
+  float luma = smoothed(at, ivec2(0, 1));
+  result = vec4(clamp((1.0 - u_weight) * luma + u_weight * p, 0.0, 1.0), 0.0, 0.0, 1.0);
 }
 `;
 
@@ -155,18 +150,9 @@ export const blur = `${header}
 uniform sampler2D u_source;
 uniform ivec2 u_step;
 out vec4 result;
+float sample_at(ivec2 at) { return texelFetch(u_source, at, 0).r; }
 ${gaussian}
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  int radius = int(ceil(3.0 * u_sigma));
-  float sum = 0.0, weights = 0.0;
-  for (int i = -radius; i <= radius; i++) {
-    float w = weight_at(i);
-    sum += w * texelFetch(u_source, inside(at + i * u_step), 0).r;
-    weights += w;
-  }
-  result = vec4(sum / weights, 0.0, 0.0, 1.0);
-}
+void main() { result = vec4(smoothed(ivec2(gl_FragCoord.xy), u_step), 0.0, 0.0, 1.0); }
 `;
 
 /** Occlusion (none), roughness, metallic, height. */

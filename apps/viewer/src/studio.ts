@@ -40,6 +40,7 @@ const kBoxes: SoftBox[] = [
   { size: [1.3, 8], at: [7.6, 0.8, 1.0], light: 8, tint: 0xe8f1ff },     // edge strip, a little cool
   { size: [6, 4], at: [3.2, 2.4, 8.2], light: 1.3, tint: 0xffffff },     // fill, behind the camera
   { size: [9, 1.6], at: [0, 2.6, -8.2], light: 4, tint: 0xf4f7ff },      // rim
+  { size: [7, 5], at: [-4.2, -1.4, 7.4], light: 0.8, tint: 0xffffff },    // what a sheet met at an angle mirrors
   { size: [5, 1.4], at: [-2, -4.6, 6.6], light: 0.9, tint: 0xffe9d6 },   // reflector on the floor
 ];
 
@@ -64,11 +65,7 @@ function studioRoom(): THREE.Scene {
 export class Studio {
   private readonly key = new THREE.DirectionalLight(0xfff4e6, 1.1);
   private readonly shadow: THREE.Mesh;
-  constructor(renderer: THREE.WebGLRenderer, private readonly scene: THREE.Scene) {
-    const pmrem = new THREE.PMREMGenerator(renderer);
-    // chosen: 0.006 rad of blur removes the cube map's stairs from a mirror-like reflection.
-    scene.environment = pmrem.fromScene(studioRoom(), 0.006, 0.1, 50).texture;
-    pmrem.dispose();
+  constructor(private readonly renderer: THREE.WebGLRenderer, private readonly scene: THREE.Scene) {
     scene.add(this.key);
     this.shadow = new THREE.Mesh(new THREE.PlaneGeometry(5, 5), new THREE.ShaderMaterial({
       vertexShader: boxVertex, transparent: true, depthWrite: false, toneMapped: false,
@@ -78,6 +75,15 @@ export class Studio {
     this.shadow.rotation.x = -Math.PI / 2;   // one-sided: from below it is not in the way
     scene.add(this.shadow);
     this.turn(0);
+  }
+
+  /** Before the first picture. The costliest step of the start, so a page without a stage skips it. */
+  setUp(): void {
+    if (this.scene.environment) return;
+    const pmrem = new THREE.PMREMGenerator(this.renderer);
+    // chosen: 0.006 rad of blur removes the cube map's stairs from a mirror-like reflection.
+    this.scene.environment = pmrem.fromScene(studioRoom(), 0.006, 0.1, 50).texture;
+    pmrem.dispose();
   }
 
   /** Turns all lights around the object; radians. */

@@ -40,7 +40,10 @@ export class Wipe {
     this.onChange();
   }
 
-  label(text: string): void { this.right.textContent = text; }
+  label(text: string, tone: string): void {
+    this.right.textContent = text;
+    this.right.className = `corner ${tone}`;
+  }
 
   private move(at: number): void {
     this.at = Math.min(Math.max(at, 0), 1);
