@@ -45,19 +45,28 @@ std::optional<Status> few_frames(const Context& context) {
                               frames_word(context.length()), kMinContext)};
 }
 
-std::optional<Status> long_horizon(const Context& context, const std::vector<double>& horizons) {
+std::optional<Status> long_horizon(const Context& context, const Forecast& forecast,
+                                   const std::vector<double>& horizons) {
     const double limit = kTrustedContexts * context.length();
     std::vector<std::string> beyond;
     for (double h : horizons) {
         if (h > limit) beyond.push_back(fmt::format("+{}", h));
     }
     if (beyond.empty()) return {};
+    const bool one = beyond.size() == 1;
+    const std::string where =
+        fmt::format("{} {} beyond +{}, twice the {} frames observed", fmt::join(beyond, ", "),
+                    one ? "lies" : "lie", limit, context.length());
+    if (forecast.is_trajectory() && forecast.trajectory.law.order == 0) {
+        return Status{"long_horizon", Severity::caution,
+                      where +
+                          ": the surface is shown as it was last seen, and nothing observed "
+                          "says that it stays so for that long."};
+    }
     return Status{"long_horizon", Severity::caution,
-                  fmt::format("{} {} beyond +{}, twice the {} frames observed: the drift was not "
-                              "measured over such a span, so read {} as a direction, not as a "
-                              "prediction.",
-                              fmt::join(beyond, ", "), beyond.size() == 1 ? "lies" : "lie", limit,
-                              context.length(), beyond.size() == 1 ? "it" : "them")};
+                  fmt::format("{}: the drift was not measured over such a span, so read {} as a "
+                              "direction, not as a prediction.",
+                              where, one ? "it" : "them")};
 }
 
 std::optional<Status> color_reversal(const Context& context) {
@@ -230,7 +239,7 @@ Statuses check_guards(const Context& context, const Forecast& forecast,
     add(color_reversal(context));
     add(exposure_jump(context, moving));
     add(mostly_clipped(context));
-    add(long_horizon(context, horizons));
+    add(long_horizon(context, forecast, horizons));
     add(out_of_gamut(forecast, moving, horizons));
     return found;
 }

@@ -56,6 +56,12 @@ TEST(Guards, LongHorizonNamesTheHorizons) {
     EXPECT_EQ(long_horizon->severity, Severity::caution);
     EXPECT_EQ(long_horizon->sentence.find("+20.5, +50 lie beyond +20"), 0u)
         << long_horizon->sentence;
+    EXPECT_NE(long_horizon->sentence.find("the drift was not measured"), std::string::npos);
+    // What is held has no drift to speak of.
+    const Statuses held = check_guards(context, persistence().forecast(context), {50});
+    ASSERT_NE(find(held, "long_horizon"), nullptr);
+    EXPECT_EQ(find(held, "long_horizon")->sentence.find("drift"), std::string::npos);
+    EXPECT_NE(find(held, "long_horizon")->sentence.find("as it was last seen"), std::string::npos);
 }
 
 TEST(Guards, ColorReversalNamesTheChannel) {
