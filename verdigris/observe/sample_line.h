@@ -66,11 +66,13 @@ class SampleLine {
     SampleLayout layout_;
     std::vector<int> bins_;
     std::size_t next_ = 0;  ///< into bins_
+    // The last sample given, and the next. Before the sink, which may be writing one when an
+    // exception ends us, and waits when it is destroyed.
+    std::array<SampleCodes, 2> buffers_;
+    std::size_t last_ = 0;  ///< into buffers_
     std::unique_ptr<SampleSink> sink_;
     ClipRecord clips_;
     std::vector<Kept> kept_;
-    std::array<SampleCodes, 2> buffers_;  ///< the last sample given, and the next
-    std::size_t last_ = 0;                ///< into buffers_
     int last_bin_ = -1;
     std::vector<int> look_at_;
     Look look_;
