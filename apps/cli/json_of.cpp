@@ -2,21 +2,6 @@
 #include "json_of.h"
 
 namespace verdigris::cli {
-namespace {
-
-const char* name_of(Severity severity) {
-    switch (severity) {
-        case Severity::info:
-            return "info";
-        case Severity::caution:
-            return "caution";
-        case Severity::refusal:
-            return "refusal";
-    }
-    return "info";
-}
-
-}  // namespace
 
 std::string to_string(TimeSource source) {
     switch (source) {
@@ -33,7 +18,7 @@ std::string to_string(TimeSource source) {
 }
 
 Json json_of(const Status& s) {
-    return {{"id", s.id}, {"severity", name_of(s.severity)}, {"sentence", s.sentence}};
+    return {{"id", s.id}, {"severity", verdigris::to_string(s.severity)}, {"sentence", s.sentence}};
 }
 Json json_of(const Statuses& statuses) {
     Json list = Json::array();
