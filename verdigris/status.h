@@ -3,7 +3,10 @@
 // the sentence. Nothing is thrown.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace verdigris {
@@ -13,6 +16,26 @@ enum class Severity {
     caution,  ///< the result may mislead; the sentence says how
     refusal,  ///< the result should not be used unless the user insists (--force)
 };
+
+/// "info", "caution", "refusal": in every JSON that a status is written to.
+inline std::string to_string(Severity severity) {
+    switch (severity) {
+        case Severity::info:
+            return "info";
+        case Severity::caution:
+            return "caution";
+        case Severity::refusal:
+            return "refusal";
+    }
+    return "info";
+}
+/// The inverse; nothing for any other name.
+inline std::optional<Severity> severity_from(std::string_view name) {
+    for (const Severity s : std::array{Severity::info, Severity::caution, Severity::refusal}) {
+        if (to_string(s) == name) return s;
+    }
+    return std::nullopt;
+}
 
 /// One finding about the data, or one guard that fired.
 struct Status {

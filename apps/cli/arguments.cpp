@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "verdigris/error.h"
+#include "verdigris/observe/unit_axis.h"
 
 namespace verdigris::cli {
 namespace {
@@ -23,12 +24,16 @@ bool parse_int(std::string_view text, int& value) {
 void ObserveArguments::add(CLI::App& command) {
     command.add_option("--crop", crop, "auto, none, or x,y,w,h in pixels of the shown frame")
         ->capture_default_str();
-    command.add_option("--size", size, "native, or the side in pixels to resample the crop to")
+    command
+        .add_option("--size", size,
+                    "native, or the side in pixels to resample the crop to. Memory grows with the "
+                    "area: a run takes about 1.4 GB at 2048, 5 GB at 4096")
         ->capture_default_str();
     command
         .add_option("--units", units,
-                    "Accelerated units the recording spans (default: 98.4, or one per frame "
-                    "when there are fewer than about 98 frames)")
+                    fmt::format("Accelerated units the recording spans (default: {}, or one per "
+                                "frame when there are fewer than {:.0f} frames)",
+                                kUnitsPerRecording, std::ceil(kFramesForUnitGrid)))
         ->check(CLI::PositiveNumber);
     command.add_option("--tau", tau, "Dead-zone on the change (default: 2.40 times the noise)")
         ->check(CLI::Range(1e-6, 1.0));

@@ -40,8 +40,10 @@ void run(Session& session, const Arguments& a) {
     line("change", fmt::format("{:.2f} % of full scale from first to last; noise of one frame "
                                "{:.2f} %",
                                i.specimen_change * 100, i.noise_sigma * 100));
-    line("exposure", fmt::format("drifts by {:.2f} %, white balance by {:.2f} %",
-                                 i.exposure_drift * 100, i.white_balance_drift * 100));
+    line("exposure", i.drift_known
+                         ? fmt::format("drifts by {:.2f} %, white balance by {:.2f} %",
+                                       i.exposure_drift * 100, i.white_balance_drift * 100)
+                         : "drift unknown: without a backdrop it cannot be told from aging");
     line("clipped", fmt::format("{:.2f} % of the specimen", i.clipped_share * 100));
     for (const Status& s : i.findings) session.tell(s);
     for (const Status& s : info.notes) {

@@ -2,21 +2,6 @@
 #include "json_of.h"
 
 namespace verdigris::cli {
-namespace {
-
-const char* name_of(Severity severity) {
-    switch (severity) {
-        case Severity::info:
-            return "info";
-        case Severity::caution:
-            return "caution";
-        case Severity::refusal:
-            return "refusal";
-    }
-    return "info";
-}
-
-}  // namespace
 
 std::string to_string(TimeSource source) {
     switch (source) {
@@ -33,7 +18,7 @@ std::string to_string(TimeSource source) {
 }
 
 Json json_of(const Status& s) {
-    return {{"id", s.id}, {"severity", name_of(s.severity)}, {"sentence", s.sentence}};
+    return {{"id", s.id}, {"severity", verdigris::to_string(s.severity)}, {"sentence", s.sentence}};
 }
 Json json_of(const Statuses& statuses) {
     Json list = Json::array();
@@ -70,8 +55,8 @@ Json json_of(const Inspection& i) {
             {"samples_per_unit", i.samples_per_unit},
             {"noise_sigma", i.noise_sigma},
             {"specimen_change", i.specimen_change},
-            {"exposure_drift", i.exposure_drift},
-            {"white_balance_drift", i.white_balance_drift},
+            {"exposure_drift", i.drift_known ? Json(i.exposure_drift) : Json(nullptr)},
+            {"white_balance_drift", i.drift_known ? Json(i.white_balance_drift) : Json(nullptr)},
             {"clipped_share", i.clipped_share},
             {"largest_jump", i.largest_jump},
             {"largest_jump_frame", i.largest_jump_frame},

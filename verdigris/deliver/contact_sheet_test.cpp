@@ -44,6 +44,24 @@ void expect_margins(const Image<SrgbU8>& sheet, int margin) {
     EXPECT_EQ(dirty, 0);
 }
 
+TEST(ContactSheet, WhatTheFontCannotWriteIsAQuestionMark) {
+    const TextStyle style{38, {0xECEAE6}, true};
+    const std::string chinese = "\xE9\x8A\x85\xE6\x9D\xBF", egyptian = "\xF0\x93\x80\x80";
+    EXPECT_EQ(text_width("plate " + chinese + " 3", style), text_width("plate ?? 3", style));
+    EXPECT_EQ(text_width(egyptian, style), text_width("?", style));
+    // What it can write stays.
+    const std::string greek =
+        "\xCF\x87\xCE\xB1\xCE\xBB\xCE\xBA\xCF\x8C\xCF\x82 \xC2\xB7 \xE2\x80\xA6";
+    EXPECT_NE(text_width(greek, style), text_width("?????? ? ?", style));
+    MadeDelivery a, b;
+    a.delivery.title = "plate " + chinese;
+    b.delivery.title = "plate ??";
+    const Image<SrgbU8> drawn = draw_contact_sheet(a.delivery),
+                        asked = draw_contact_sheet(b.delivery);
+    ASSERT_TRUE(drawn.same_size(asked));
+    EXPECT_TRUE(std::equal(drawn.pixels().begin(), drawn.pixels().end(), asked.pixels().begin()));
+}
+
 TEST(ContactSheet, ShowsEveryTileWhereTheLayoutPutsIt) {
     const MadeDelivery made(64, 40);
     const Image<SrgbU8> sheet = draw_contact_sheet(made.delivery);

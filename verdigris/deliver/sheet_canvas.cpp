@@ -47,6 +47,32 @@ void set_font(cairo_t* cr, const TextStyle& style) {
     cairo_set_font_size(cr, style.size);
 }
 
+// What DejaVu has no letter for (Chinese, say) becomes "?" rather than an empty box: cairo's text
+// calls look into one font only. manifest.json has the title as it is.
+std::string with_letters(cairo_t* cr, const std::string& text) {
+    cairo_glyph_t* glyphs = nullptr;
+    cairo_text_cluster_t* clusters = nullptr;
+    int glyph_count = 0, cluster_count = 0;
+    cairo_text_cluster_flags_t flags{};
+    check(cairo_scaled_font_text_to_glyphs(cairo_get_scaled_font(cr), 0, 0, text.data(),
+                                           int(text.size()), &glyphs, &glyph_count, &clusters,
+                                           &cluster_count, &flags));
+    std::string drawn;
+    std::size_t byte = 0;
+    int glyph = 0;
+    for (int i = 0; i < cluster_count; ++i) {
+        const cairo_text_cluster_t& cluster = clusters[i];
+        const bool known = std::all_of(glyphs + glyph, glyphs + glyph + cluster.num_glyphs,
+                                       [](const cairo_glyph_t& g) { return g.index != 0; });
+        drawn += known ? text.substr(byte, std::size_t(cluster.num_bytes)) : "?";
+        byte += std::size_t(cluster.num_bytes);
+        glyph += cluster.num_glyphs;
+    }
+    cairo_glyph_free(glyphs);
+    cairo_text_cluster_free(clusters);
+    return drawn;
+}
+
 }  // namespace
 
 struct SheetCanvas::State {
@@ -71,7 +97,7 @@ TextWidth measure(const TextStyle& style) {
     set_font(cr.get(), style);
     return [surface, cr](const std::string& text) {
         cairo_text_extents_t extents{};
-        cairo_text_extents(cr.get(), text.c_str(), &extents);
+        cairo_text_extents(cr.get(), with_letters(cr.get(), text).c_str(), &extents);
         check(cairo_status(cr.get()));
         return extents.x_advance;
     };
@@ -136,7 +162,7 @@ void SheetCanvas::text(double x, double y, const std::string& text, const TextSt
     set_font(cr, style);
     set_ink(cr, style.ink);
     cairo_move_to(cr, x, y);
-    cairo_show_text(cr, text.c_str());
+    cairo_show_text(cr, with_letters(cr, text).c_str());
     check(cairo_status(cr));
 }
 

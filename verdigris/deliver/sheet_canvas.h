@@ -39,7 +39,8 @@ class SheetCanvas {
     /// A one-pixel frame just outside `rect`.
     void frame(Rect rect, Ink ink);
     void line(double x0, double y0, double x1, double y1, Ink ink, double width, bool dashed);
-    /// `y` is the baseline. The text must be printable().
+    /// `y` is the baseline. The text must be printable(); a character without a letter in the font
+    /// is drawn as "?".
     void text(double x, double y, const std::string& text, const TextStyle& style);
     void picture(int x, int y, ImageView<const SrgbU8> image);
 

@@ -4,29 +4,13 @@
 #include "verdigris/material/material.h"
 
 namespace verdigris {
-namespace {
-
 using Json = nlohmann::ordered_json;
-
-const char* severity_text(Severity severity) {
-    switch (severity) {
-        case Severity::info:
-            return "info";
-        case Severity::caution:
-            return "caution";
-        case Severity::refusal:
-            return "refusal";
-    }
-    return "info";
-}
-
-}  // namespace
 
 Json guards_json(const Statuses& guards) {
     Json list = Json::array();
     for (const Status& guard : guards) {
         list.push_back({{"id", guard.id},
-                        {"severity", severity_text(guard.severity)},
+                        {"severity", to_string(guard.severity)},
                         {"sentence", guard.sentence}});
     }
     return list;

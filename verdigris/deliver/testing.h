@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of this room share: a made delivery whose truth is known, a folder that goes
-// away, and readers that share no code with the writers.
+// What the tests of this room share: a made delivery whose truth is known, and readers that share
+// no code with the writers.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,29 +18,9 @@
 
 #include "verdigris/deliver/deliver.h"
 #include "verdigris/files/files.h"
+#include "verdigris/files/testing.h"
 
 namespace verdigris {
-
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "verdigris-deliver-XXXXXX").string();
-        if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// Everything a Delivery points to. Not movable: the delivery holds addresses.
 struct MadeDelivery {

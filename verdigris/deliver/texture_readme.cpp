@@ -23,9 +23,11 @@ std::string paragraph(const std::string& text, const std::string& indent, int fi
 }
 
 // One line per map that Material carries an origin for.
-std::string origin_lines(const Forecast& forecast, const MaterialRecipe& recipe) {
+std::string origin_lines(const Delivery& delivery, const DeliveredState& state) {
     std::string lines;
-    for (const MapOrigin& origin : map_origins(forecast, recipe.observed_is_clean)) {
+    for (const MapOrigin& origin :
+         map_origins(*delivery.forecast, delivery.recipe->observed_is_clean,
+                     state.observed() ? MapsOf::observed : MapsOf::forecast)) {
         lines += fmt::format("  {:<10} {:<9} {}", origin.map, to_string(origin.origin),
                              paragraph(origin.sentence, std::string(23, ' '), 23));
     }
@@ -72,8 +74,7 @@ Written by verdigris {version}.
         fmt::arg("title", delivery.title), fmt::arg("what", what),
         fmt::arg("unit", paragraph(kUnitSentence, "", 0)), fmt::arg("width", width),
         fmt::arg("height", height), fmt::arg("prefix", prefix),
-        fmt::arg("origins", origin_lines(*delivery.forecast, *delivery.recipe)),
-        fmt::arg("version", writer_version()));
+        fmt::arg("origins", origin_lines(delivery, state)), fmt::arg("version", writer_version()));
 }
 
 }  // namespace verdigris

@@ -181,6 +181,10 @@ TEST(Textures, ReadmeSaysTheConventions) {
     const std::string observed = texture_readme(made.delivery, states[0], "P", 40, 24);
     EXPECT_NE(observed.find("last observed state"), std::string::npos);
     EXPECT_EQ(observed.find("A forecast,"), std::string::npos);
+    EXPECT_NE(observed.find("  albedo     measured  The last observed frame itself;"),
+              std::string::npos)
+        << observed;
+    EXPECT_NE(forecast.find("  albedo     modeled "), std::string::npos) << forecast;
 }
 
 TEST(Textures, SameBytesTwice) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tests of this room share: a folder that goes away, and errors as values.
+// What the tests of this room and of those above it share: a folder that goes away, and errors as
+// values.
 #pragma once
 
 #include <fcntl.h>
@@ -21,7 +22,7 @@ class ScratchFolder {
   public:
     ScratchFolder() {
         std::string name =
-            (std::filesystem::temp_directory_path() / "verdigris-files-XXXXXX").string();
+            (std::filesystem::temp_directory_path() / "verdigris-test-XXXXXX").string();
         if (!::mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
         path_ = name;
     }

@@ -25,6 +25,14 @@ Mask combine(const Context& context, bool specimen_only) {
     return mask;
 }
 
+/// SplitMix64: numbers without a pattern that are the same in every run.
+std::uint64_t mixed(std::uint64_t key) {
+    key += 0x9E3779B97F4A7C15u;
+    key = (key ^ (key >> 30)) * 0xBF58476D1CE4E5B9u;
+    key = (key ^ (key >> 27)) * 0x94D049BB133111EBu;
+    return key ^ (key >> 31);
+}
+
 }  // namespace
 
 void check_context(const Context& context) {
@@ -58,15 +66,21 @@ std::int64_t count_inside(const Mask& mask) {
 }
 
 std::vector<std::size_t> sample_inside(const Mask& mask, std::int64_t limit) {
-    const std::int64_t inside = count_inside(mask);
-    const std::int64_t step = std::max<std::int64_t>(1, (inside + limit - 1) / limit);
+    const std::int64_t inside = count_inside(mask), count = std::min(inside, limit);
     std::vector<std::size_t> indices;
-    indices.reserve(std::size_t(inside / step + 1));
+    indices.reserve(std::size_t(count));
     const auto pixels = mask.pixels();
-    std::int64_t seen = 0;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
+    // The rank, among the pixels inside, of the one that stratum k gives.
+    const auto rank = [&](std::int64_t k) {
+        const std::int64_t begin = k * inside / count, end = (k + 1) * inside / count;
+        return begin + std::int64_t(mixed(std::uint64_t(k)) % std::uint64_t(end - begin));
+    };
+    std::int64_t seen = 0, taken = 0;
+    for (std::size_t i = 0; taken < count; ++i) {
         if (pixels[i] == 0) continue;
-        if (seen++ % step == step / 2) indices.push_back(i);
+        if (seen++ != rank(taken)) continue;
+        indices.push_back(i);
+        ++taken;
     }
     return indices;
 }

@@ -19,8 +19,11 @@ Mask fit_mask(const Context& context, FitPixels pixels);
 Mask moving_mask(const Context& context);
 std::int64_t count_inside(const Mask& mask);
 
-/// Raster indices of at most `limit` pixels inside the mask, evenly spread over them: what a
-/// statistic is taken on where every pixel would cost much and say little more.
+/// Raster indices, increasing, of at most `limit` pixels inside the mask: what a statistic is taken
+/// on where every pixel would cost much and say little more. The pixels inside are cut into `limit`
+/// runs of one length and each run gives one, by a fixed sequence without a pattern: every pixel is
+/// as likely as any other, also where a step through the rows would meet the same columns again and
+/// again. Same mask, same indices.
 std::vector<std::size_t> sample_inside(const Mask& mask, std::int64_t limit);
 
 }  // namespace verdigris

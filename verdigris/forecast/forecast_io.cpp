@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -28,7 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "verdigris-forecast/1";
 constexpr const char* kManifest = "forecast.json";
-constexpr std::array<const char*, 3> kSeverities{"info", "caution", "refusal"};
 
 std::span<const std::byte> bytes_of(const Image<SrgbF>& image) {
     return std::as_bytes(image.pixels());
@@ -83,9 +81,8 @@ Image<SrgbF> read_one(const fs::path& path) {
 Json guards_json(const Statuses& guards) {
     Json out = Json::array();
     for (const Status& g : guards) {
-        out.push_back({{"id", g.id},
-                       {"severity", kSeverities[std::size_t(g.severity)]},
-                       {"sentence", g.sentence}});
+        out.push_back(
+            {{"id", g.id}, {"severity", to_string(g.severity)}, {"sentence", g.sentence}});
     }
     return out;
 }
@@ -94,12 +91,12 @@ Statuses guards_from(const Json& json) {
     Statuses out;
     for (const Json& g : json) {
         const auto name = g.at("severity").get<std::string>();
-        const auto at = std::find(kSeverities.begin(), kSeverities.end(), name);
-        if (at == kSeverities.end()) {
+        const auto severity = severity_from(name);
+        if (!severity) {
             throw Error(ErrorCode::bad_input, "names the unknown severity '" + name + "'",
                         kManifest);
         }
-        out.push_back({g.at("id"), Severity(at - kSeverities.begin()), g.at("sentence")});
+        out.push_back({g.at("id"), *severity, g.at("sentence")});
     }
     return out;
 }

@@ -2,13 +2,13 @@
 #include "verdigris/forecast/forecast_io.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
+#include "verdigris/files/testing.h"
 #include "verdigris/forecast/affine.h"
 #include "verdigris/forecast/guards.h"
 #include "verdigris/forecast/testing.h"
@@ -20,13 +20,6 @@ namespace fs = std::filesystem;
 
 class ForecastIo : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ =
-            fs::temp_directory_path() / ("verdigris-forecast-io-" + std::to_string(::getpid()));
-        fs::remove_all(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     SavedForecast example(int order) const {
         SavedForecast saved;
         saved.context = drifting(6, planted_drift(), 0.002, 3, 21, 13);
@@ -41,7 +34,8 @@ class ForecastIo : public testing::Test {
         saved.source_sha256 = std::string(64, 'a');
         return saved;
     }
-    fs::path folder_;
+    ScratchFolder scratch_;
+    fs::path folder_ = scratch_ / "forecast";
 };
 
 TEST_F(ForecastIo, RoundTripsEveryBit) {
@@ -108,6 +102,13 @@ TEST_F(ForecastIo, NamesTheFileThatIsWrong) {
     write_file(folder_ / "forecast.json", "{\"format\": \"something else\"}");
     expect_bad(folder_, "forecast.json");
     write_file(folder_ / "forecast.json", "{}");
+    expect_bad(folder_, "forecast.json");
+    write_forecast(example(1), folder_);
+    std::string text = read_text(folder_ / "forecast.json");
+    const std::string caution = "\"severity\": \"caution\"";
+    ASSERT_NE(text.find(caution), std::string::npos) << text;
+    text.replace(text.find(caution), caution.size(), "\"severity\": \"dire\"");
+    write_file(folder_ / "forecast.json", text);
     expect_bad(folder_, "forecast.json");
     write_forecast(example(1), folder_);
     fs::resize_file(folder_ / "rate.npy", fs::file_size(folder_ / "rate.npy") - 8);

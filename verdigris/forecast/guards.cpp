@@ -27,6 +27,9 @@ constexpr double kExposureStep = 0.02;  // chosen: 2 % of brightness in one step
 constexpr double kUnusualStep = 4;      // chosen: times the median step of the backdrop
 constexpr double kTogether = 0.5;       // chosen: the specimen takes at least half of the step
 constexpr double kMinBackdropShare = 0.02;  // chosen: of the frame, or there is no backdrop
+// chosen: half a percent over a context of 10 is 5 % over a recording of 100 units, where observe/
+// calls a drift of the light visible; and a trend is one from four standard errors on.
+constexpr double kLightRamp = 0.005, kClearTrend = 4;
 
 std::string percent(double share) {
     const double p = 100 * share;
@@ -188,7 +191,13 @@ double median(std::vector<double> v) {
     return *middle;
 }
 
-std::optional<Status> exposure_jump(const Context& context, const Mask& moving) {
+/// log brightness per frame of what is and of what is not specimen.
+struct Brightness {
+    std::vector<double> metal, behind;
+};
+
+/// Nothing if the context is too short, or shows no backdrop or no specimen to compare.
+std::optional<Brightness> brightness_of(const Context& context, const Mask& moving) {
     if (context.length() < 3 || context.specimen.empty()) return {};
     Mask backdrop = fit_mask(context, FitPixels::all);
     for (std::size_t i = 0; i < backdrop.pixel_count(); ++i) {
@@ -197,8 +206,11 @@ std::optional<Status> exposure_jump(const Context& context, const Mask& moving) 
     const double frame = double(backdrop.pixel_count());
     if (double(count_inside(backdrop)) < kMinBackdropShare * frame) return {};
     if (count_inside(moving) == 0) return {};
-    const auto behind = steps_of(log_brightness(context, backdrop));
-    const auto metal = steps_of(log_brightness(context, moving));
+    return Brightness{log_brightness(context, moving), log_brightness(context, backdrop)};
+}
+
+std::optional<Status> exposure_jump(const Context& context, const Brightness& brightness) {
+    const auto behind = steps_of(brightness.behind), metal = steps_of(brightness.metal);
     std::vector<double> sizes;
     for (double s : behind) sizes.push_back(std::abs(s));
     const double usual_size = median(sizes), usual_metal = median(metal);
@@ -224,6 +236,45 @@ std::optional<Status> exposure_jump(const Context& context, const Mask& moving) 
                               behind[worst] > 0 ? "brighter" : "darker")};
 }
 
+/// A straight line through a series: its rise from the first to the last value, and how sure.
+struct Trend {
+    double rise = 0, standard_error = 0;
+};
+Trend trend_of(const std::vector<double>& y) {
+    const double n = double(y.size()), center = (n - 1) / 2;
+    double mean = 0, sxx = 0, sxy = 0, residual = 0;
+    for (double v : y) mean += v / n;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+        sxx += (double(i) - center) * (double(i) - center);
+        sxy += (double(i) - center) * (y[i] - mean);
+    }
+    const double slope = sxy / sxx;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+        const double r = y[i] - mean - slope * (double(i) - center);
+        residual += r * r;
+    }
+    return {slope * (n - 1), std::sqrt(residual / (n - 2) / sxx) * (n - 1)};
+}
+
+/// What moves backdrop and specimen alike is continued by every forecaster as if it were aging.
+std::optional<Status> light_ramp(const Context& context, const Brightness& brightness) {
+    if (context.length() < kMinContext) return {};
+    const Trend behind = trend_of(brightness.behind), metal = trend_of(brightness.metal);
+    const bool clear = std::abs(behind.rise) > kLightRamp &&
+                       std::abs(behind.rise) > kClearTrend * behind.standard_error;
+    const bool together =
+        behind.rise * metal.rise > 0 && std::abs(behind.rise) >= kTogether * std::abs(metal.rise);
+    if (!clear || !together) return {};
+    const char* direction = behind.rise > 0 ? "brighter" : "darker";
+    return Status{
+        "light_ramp", Severity::caution,
+        fmt::format("Over the {} observed frames the backdrop moves with the specimen: it gets {} "
+                    "{}, the specimen {}. This may be the light, not the copper, and a forecast "
+                    "goes on with it. Keep lamp and exposure fixed.",
+                    context.length(), percent(std::abs(std::expm1(behind.rise))), direction,
+                    percent(std::abs(std::expm1(metal.rise))))};
+}
+
 }  // namespace
 
 Statuses check_guards(const Context& context, const Forecast& forecast,
@@ -237,7 +288,12 @@ Statuses check_guards(const Context& context, const Forecast& forecast,
     add(few_frames(context));
     add(no_change(context, moving));
     add(color_reversal(context));
-    add(exposure_jump(context, moving));
+    if (const auto brightness = brightness_of(context, moving)) {
+        auto jump = exposure_jump(context, *brightness);
+        // A step is a slope too: one of the two sentences is enough.
+        if (!jump) add(light_ramp(context, *brightness));
+        add(std::move(jump));
+    }
     add(mostly_clipped(context));
     add(long_horizon(context, forecast, horizons));
     add(out_of_gamut(forecast, moving, horizons));

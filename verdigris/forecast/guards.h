@@ -14,7 +14,8 @@ inline constexpr int kMinContext = 5;  ///< below, worse than doing nothing [Pap
 /// "color_reversal" (caution: a channel turned inside the context, names it), "out_of_gamut"
 /// (caution above 1 %: share per horizon, and whether the clamp held it), "mostly_clipped"
 /// (caution: over 20 % of the specimen saturated), "no_change" (info: the context moved less than
-/// its noise), "exposure_jump" (caution: one step moved specimen and backdrop together).
+/// its noise), "exposure_jump" (caution: one step moved specimen and backdrop together),
+/// "light_ramp" (caution: backdrop and specimen brighten or darken together, steadily).
 Statuses check_guards(const Context& context, const Forecast& forecast,
                       const std::vector<double>& horizons);
 

@@ -177,6 +177,54 @@ TEST(Guards, ExposureJumpNeedsBothToMove) {
     EXPECT_EQ(find(guards_of(with_backdrop(3, 1, 1)), "exposure_jump"), nullptr);
 }
 
+// The lamp of the backdrop and of the specimen gets brighter by these shares from frame to frame.
+Context ramped(double specimen, double backdrop, double noise = 0.001, int frames = 10) {
+    Context context = drifting(frames, {}, noise, 4);
+    context.specimen = Mask(48, 40);
+    for (int y = 5; y < 35; ++y) {
+        for (int x = 5; x < 35; ++x) context.specimen(x, y) = kInside;
+    }
+    for (int t = 0; t < frames; ++t) {
+        for (int y = 0; y < 40; ++y) {
+            for (int x = 0; x < 48; ++x) {
+                const float g =
+                    1 + float(t) * float(context.specimen(x, y) != 0 ? specimen : backdrop);
+                SrgbF& c = context.frames[std::size_t(t)](x, y);
+                c = {c.r * g, c.g * g, c.b * g};
+            }
+        }
+    }
+    return context;
+}
+
+TEST(Guards, LightRampSaysThatTheBackdropMovesToo) {
+    const Statuses guards = guards_of(ramped(0.004, 0.004));
+    const Status* ramp = find(guards, "light_ramp");
+    ASSERT_NE(ramp, nullptr);
+    EXPECT_EQ(ramp->severity, Severity::caution);
+    EXPECT_NE(ramp->sentence.find("the backdrop moves with the specimen: it gets 3.6 % brighter, "
+                                  "the specimen 3.6 %"),
+              std::string::npos)
+        << ramp->sentence;
+    EXPECT_NE(ramp->sentence.find("the light, not the copper"), std::string::npos);
+    EXPECT_NE(find(guards_of(ramped(-0.006, -0.004)), "light_ramp")->sentence.find("darker"),
+              std::string::npos);
+    // Aging alone, a backdrop that moves alone or the other way, and flicker are no ramp.
+    EXPECT_EQ(find(guards_of(ramped(-0.01, 0)), "light_ramp"), nullptr);
+    EXPECT_EQ(find(guards_of(ramped(-0.02, -0.004)), "light_ramp"), nullptr);
+    EXPECT_EQ(find(guards_of(ramped(-0.01, 0.004)), "light_ramp"), nullptr);
+    Context flicker = ramped(0, 0);
+    for (std::size_t t = 0; t < 10; ++t) {
+        for (SrgbF& c : flicker.frames[t].pixels()) {
+            const float g = t % 2 == 0 ? 1.006f : 0.994f;
+            c = {c.r * g, c.g * g, c.b * g};
+        }
+    }
+    EXPECT_EQ(find(guards_of(flicker), "light_ramp"), nullptr);
+    // A step is told as a step.
+    EXPECT_EQ(find(guards_of(with_backdrop(3, 1.06, 1.06)), "light_ramp"), nullptr);
+}
+
 TEST(Guards, WorkOnANetworksFrames) {
     const Context context = drifting(6, planted_drift(), 0.001);
     Forecast network;

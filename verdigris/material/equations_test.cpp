@@ -144,6 +144,19 @@ TEST(Origins, AreHonestAboutWhatOneCameraKnows) {
     EXPECT_EQ(map_origins(persistence().forecast(context))[0].origin, Origin::measured);
     for (std::size_t i = 1; i < 5; ++i) EXPECT_EQ(origins[i].origin, Origin::modeled);
     EXPECT_EQ(to_string(Origin::assumed), "assumed");
+    // The observed state is no forecast: its albedo is a photograph, and counted as clean it has no
+    // patina that roughness and metallic could follow.
+    for (const bool clean : {true, false}) {
+        const auto seen = map_origins(moving, clean, MapsOf::observed);
+        ASSERT_EQ(seen.size(), 5u);
+        EXPECT_EQ(seen[0].origin, Origin::measured);
+        EXPECT_NE(seen[0].sentence.find("light"), std::string::npos);
+        EXPECT_EQ(seen[0].sentence.find("held"), std::string::npos);
+        EXPECT_EQ(seen[3].origin, clean ? Origin::assumed : Origin::modeled);
+        for (const MapOrigin& origin : seen) {
+            EXPECT_EQ(origin.sentence.find("forecast"), std::string::npos) << origin.sentence;
+        }
+    }
 }
 
 }  // namespace

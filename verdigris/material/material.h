@@ -95,8 +95,11 @@ void materialize(const MaterialRecipe& recipe, const Trajectory& trajectory, dou
 void materialize(const MaterialRecipe& recipe, const Forecast& forecast, double horizon,
                  Material& out);
 
-/// What can be said about each map, honestly.
-std::vector<MapOrigin> map_origins(const Forecast& forecast, bool observed_is_clean = true);
+/// What can be said about each map, honestly: of a forecast state, or of the last observed one,
+/// whose albedo is a photograph.
+enum class MapsOf { forecast, observed };
+std::vector<MapOrigin> map_origins(const Forecast& forecast, bool observed_is_clean = true,
+                                   MapsOf maps_of = MapsOf::forecast);
 std::string to_string(Origin origin);
 
 }  // namespace verdigris

@@ -2,13 +2,13 @@
 #include "verdigris/material/material_io.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
+#include "verdigris/files/testing.h"
 #include "verdigris/material/testing.h"
 
 namespace verdigris {
@@ -18,11 +18,6 @@ namespace fs = std::filesystem;
 
 class RecipeIo : public testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() / ("verdigris-recipe-io-" + std::to_string(::getpid()));
-        fs::remove_all(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
     static MaterialRecipe example() {
         MaterialOptions options;
         options.coverage_exponent = 0.7;
@@ -31,7 +26,8 @@ class RecipeIo : public testing::Test {
         const Context context = copper_context(23, 17, 6);
         return prepare_material(context, straight_forecast(context, {-0.01f, 0, 0.01f}), options);
     }
-    fs::path folder_;
+    ScratchFolder scratch_;
+    fs::path folder_ = scratch_ / "material";
 };
 
 TEST_F(RecipeIo, RoundTripsEveryBit) {

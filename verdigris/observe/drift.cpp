@@ -20,9 +20,13 @@ Drift measure_drift(const SpecimenFinding& finding) {
     Drift drift;
     drift.known = finding.majority && finding.kind != SpecimenKind::fills_frame;
     if (!drift.known) return drift;
+    drift.alone = finding.kind == SpecimenKind::still;
     for (const Gain& gain : finding.gains) {
         const double level = gain.level();
-        drift.exposure = std::max(drift.exposure, std::fabs(level - 1));
+        if (std::fabs(level - 1) > drift.exposure) {
+            drift.exposure = std::fabs(level - 1);
+            drift.brighter = level > 1;
+        }
         for (const double c : {gain.r, gain.g, gain.b}) {
             drift.white_balance = std::max(drift.white_balance, std::fabs(c / level - 1));
         }
@@ -31,11 +35,25 @@ Drift measure_drift(const SpecimenFinding& finding) {
 }
 
 void note_drift(const Drift& drift, Statuses& notes) {
+    if (!drift.known) {
+        notes.push_back({"light_unknown", Severity::info,
+                         "there is nothing but specimen in the frame, so light that drifts cannot "
+                         "be told from aging; a strip of backdrop would show it"});
+        return;
+    }
     if (drift.exposure > kExposure) {
-        notes.push_back({"exposure_drift", Severity::caution,
-                         fmt::format("the light or the exposure drifts by {:.0f} % over the "
-                                     "recording; part of what looks like aging is that drift",
-                                     100 * drift.exposure)});
+        const char* direction = drift.brighter ? "brighter" : "darker";
+        notes.push_back(
+            {"exposure_drift", Severity::caution,
+             drift.alone
+                 ? fmt::format("the whole picture, backdrop included, gets up to {:.0f} % {}, and "
+                               "nothing changes beside: this is the light or the exposure, not the "
+                               "copper",
+                               100 * drift.exposure, direction)
+                 : fmt::format("the backdrop moves with the specimen, it gets up to {:.0f} % {}: "
+                               "that part of what looks like aging may be the light, not the "
+                               "copper; keep lamp and exposure fixed",
+                               100 * drift.exposure, direction)});
     }
     if (drift.white_balance > kWhiteBalance) {
         notes.push_back({"white_balance_drift", Severity::caution,

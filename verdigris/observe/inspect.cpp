@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -75,10 +76,18 @@ void measure_times(const std::vector<double>& times, Inspection& out) {
     out.duration_seconds = times.back() - times.front();
     out.median_step_seconds = median_of(steps);
     out.longest_step_seconds = *std::max_element(steps.begin(), steps.end());
+    const auto repeated = std::count(steps.begin(), steps.end(), 0.0);
+    if (repeated > 0 && out.duration_seconds > 0) {  // all the same: the axis says so
+        out.findings.push_back(
+            {"times_repeat", Severity::caution,
+             fmt::format("{} of {} frames {} the same time as the frame before: they count as "
+                         "one moment, and the clock of the recording may be too coarse or wrong",
+                         repeated, times.size(), repeated == 1 ? "carries" : "carry")});
+    }
     if (out.median_step_seconds > 0 &&
         out.longest_step_seconds > kUnevenSteps * out.median_step_seconds) {
         out.findings.push_back(
-            {"gap_in_time", Severity::info,
+            {"gap_in_time", Severity::caution,
              fmt::format("the longest gap between frames is {:.1f} times the usual one; samples "
                          "inside it are interpolated",
                          out.longest_step_seconds / out.median_step_seconds)});
@@ -166,9 +175,26 @@ void judge_length(int frames, Inspection& out) {
     }
 }
 
+// chosen: what spoils a forecast most comes first. Whether there is something to forecast, whether
+// it is the copper that moves, whether its color can be seen, how long it was watched, when; then
+// what is not listed: how the file says its times and colors.
+constexpr std::array kWeightiest{
+    "still_scene",         "specimen_unclear", "jump",          "exposure_drift",
+    "white_balance_drift", "clipped",          "noisy",         "broken_tail",
+    "lost_frames",         "few_frames",       "one_frame",     "times_equal",
+    "gap_in_time",         "times_repeat",     "light_unknown", "irregular_times",
+};
+
+auto rank_of(const Status& finding) {
+    return std::find(kWeightiest.begin(), kWeightiest.end(), finding.id) - kWeightiest.begin();
+}
+
 void pass_verdict(Inspection& out) {
     std::stable_sort(out.findings.begin(), out.findings.end(),
-                     [](const Status& a, const Status& b) { return a.severity > b.severity; });
+                     [](const Status& a, const Status& b) {
+                         if (a.severity != b.severity) return a.severity > b.severity;
+                         return rank_of(a) < rank_of(b);
+                     });
     const auto count = [&](Severity s) {
         return std::count_if(out.findings.begin(), out.findings.end(),
                              [&](const Status& f) { return f.severity == s; });
@@ -184,13 +210,16 @@ void pass_verdict(Inspection& out) {
     } else if (cautions > 1) {
         out.verdict = Verdict::poor;
         out.verdict_sentence = fmt::format(
-            "{} things limit a forecast from this recording; the first{}", cautions, reason);
+            "{} things limit a forecast from this recording; the weightiest{}", cautions, reason);
     } else if (cautions == 1) {
         out.verdict = Verdict::usable;
         out.verdict_sentence = "usable" + reason;
     } else {
         out.verdict = Verdict::good;
-        out.verdict_sentence = "good: the specimen changes clearly under steady light";
+        out.verdict_sentence =
+            out.drift_known ? "good: the specimen changes clearly under steady light"
+                            : "good: the specimen changes clearly; whether the light is steady "
+                              "cannot be seen without a backdrop";
     }
 }
 
@@ -232,6 +261,7 @@ Inspection inspect(const Recording& recording, const Progress& progress) {
     const AxisPlan axis = plan_axis(times, std::nullopt);
     out.units = axis.axis.units;
     out.samples_per_unit = axis.axis.samples_per_unit;
+    out.findings.insert(out.findings.end(), axis.notes.begin(), axis.notes.end());
 
     const SpecimenFinding finding = find_specimen(look);
     const CropReport crop = crop_report(finding, look);
@@ -245,6 +275,7 @@ Inspection inspect(const Recording& recording, const Progress& progress) {
     const Drift drift = measure_drift(finding);
     out.exposure_drift = drift.exposure;
     out.white_balance_drift = drift.white_balance;
+    out.drift_known = drift.known;
 
     judge_length(out.frames, out);
     judge_specimen(finding, out);

@@ -20,18 +20,20 @@ struct Inspection {
     double median_step_seconds = 0, longest_step_seconds = 0;
     double units = 0;  ///< accelerated units the recording would span
     int samples_per_unit = 0;
-    double noise_sigma = 0;          ///< of a single frame, encoded units
-    double specimen_change = 0;      ///< mean |last - first| over the specimen, encoded units
-    double exposure_drift = 0;       ///< largest relative change of the unchanging majority's level
-    double white_balance_drift = 0;  ///< largest change of its channel ratios
-    double clipped_share = 0;        ///< of specimen pixels saturated in some frame
-    double largest_jump = 0;         ///< largest frame-to-frame mean step over the typical one
+    double noise_sigma = 0;      ///< of a single frame, encoded units
+    double specimen_change = 0;  ///< mean |last - first| over the specimen, encoded units
+    /// Largest relative change of the unchanging majority's level, and of its channel ratios. 0 and
+    /// not known where there is nothing but specimen to measure them on.
+    double exposure_drift = 0, white_balance_drift = 0;
+    bool drift_known = false;
+    double clipped_share = 0;  ///< of specimen pixels saturated in some frame
+    double largest_jump = 0;   ///< largest frame-to-frame mean step over the typical one
     int largest_jump_frame = -1;
     Rect crop;  ///< what --crop auto would choose
     std::string crop_sentence;
     Verdict verdict{};
     std::string verdict_sentence;
-    Statuses findings;  ///< in order of weight
+    Statuses findings;  ///< the weightiest first
 };
 
 /// Throws as observe() does for inputs that cannot be read at all; anything that can be read gets

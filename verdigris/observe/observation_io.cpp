@@ -26,18 +26,6 @@ Json json_of(Rect r) {
     return Json::array({r.x, r.y, r.width, r.height});
 }
 
-const char* severity_name(Severity s) {
-    switch (s) {
-        case Severity::info:
-            return "info";
-        case Severity::caution:
-            return "caution";
-        case Severity::refusal:
-            return "refusal";
-    }
-    return "info";
-}
-
 Json json_of(const Observation& o) {
     Json j;
     j["format"] = kFormat;
@@ -70,7 +58,7 @@ Json json_of(const Observation& o) {
     Json notes = Json::array();
     for (const Status& n : o.notes) {
         notes.push_back(
-            {{"id", n.id}, {"severity", severity_name(n.severity)}, {"sentence", n.sentence}});
+            {{"id", n.id}, {"severity", to_string(n.severity)}, {"sentence", n.sentence}});
     }
     j["notes"] = notes;
     return j;
@@ -104,12 +92,14 @@ Observation observation_from(const Json& j) {
     o.decode = {decode.at("decoded").get<int>(), decode.at("lost").get<int>(),
                 decode.at("first_lost").get<int>(), decode.at("reason").get<std::string>()};
     for (const Json& n : j.at("notes")) {
-        const auto severity = n.at("severity").get<std::string>();
-        o.notes.push_back({n.at("id").get<std::string>(),
-                           severity == "refusal"   ? Severity::refusal
-                           : severity == "caution" ? Severity::caution
-                                                   : Severity::info,
-                           n.at("sentence").get<std::string>()});
+        const auto name = n.at("severity").get<std::string>();
+        const auto severity = severity_from(name);
+        if (!severity) {
+            throw Error(ErrorCode::bad_input, "names the unknown severity '" + name + "'",
+                        "observation.json");
+        }
+        o.notes.push_back(
+            {n.at("id").get<std::string>(), *severity, n.at("sentence").get<std::string>()});
     }
     return o;
 }

@@ -11,6 +11,7 @@
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/npy.h"
 #include "verdigris/files/png.h"
+#include "verdigris/files/testing.h"
 #include "verdigris/observe/testing/made_scene.h"
 #include "verdigris/recording/memory_recording.h"
 #include "verdigris/recording/recording.h"
@@ -21,15 +22,6 @@ namespace {
 
 class ObservationIo : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  (std::string("verdigris-observation-") +
-                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     Observation made(bool stored) const {
         testing::MadeScene scene;
         scene.width = 64;
@@ -57,7 +49,8 @@ class ObservationIo : public ::testing::Test {
         }
         return "";
     }
-    std::filesystem::path folder_;
+    ScratchFolder scratch_;
+    std::filesystem::path folder_ = scratch_.path();
 };
 
 void expect_equal(const Observation& a, const Observation& b) {
@@ -165,6 +158,12 @@ TEST_F(ObservationIo, NamesTheFileThatIsMissingOrBroken) {
     axis.replace(axis.find("\"samples_per_unit\": 1"), 21, "\"samples_per_unit\": 0");
     std::ofstream(folder_ / "observation.json") << axis;
     EXPECT_NE(refusal().find("time axis"), std::string::npos);
+    std::string severity = json;
+    const std::string known = "\"severity\": \"info\"";
+    ASSERT_NE(severity.find(known), std::string::npos) << json;
+    severity.replace(severity.find(known), known.size(), "\"severity\": \"dire\"");
+    std::ofstream(folder_ / "observation.json") << severity;
+    EXPECT_NE(refusal().find("unknown severity 'dire'"), std::string::npos);
     std::ofstream(folder_ / "observation.json") << json;
     ASSERT_EQ(refusal(), "");
 

@@ -10,9 +10,6 @@
 namespace verdigris {
 namespace {
 
-// chosen: below this many frames per unit a unit grid would average pairs here and single frames
-// there; one frame per sample keeps every sample equally noisy.
-constexpr double kFramesForUnitGrid = 1.5 * kUnitsPerRecording;
 // derived: 984 grid samples of which 950 are usable in the paper, 17 lost at each end.
 constexpr int kPaperGrid = 984, kPaperTrim = 17;
 

@@ -11,6 +11,10 @@
 
 namespace verdigris {
 
+/// chosen: below this many frames a unit grid would average pairs here and single frames there; one
+/// frame per sample keeps every sample equally noisy.
+inline constexpr double kFramesForUnitGrid = 1.5 * kUnitsPerRecording;
+
 /// The axis and the bin of every source frame, known before a frame is decoded.
 struct AxisPlan {
     UnitAxis axis;
