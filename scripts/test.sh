@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs, builds and runs every test: the checks of the house, each room's tests, the program on
-# good and bad input, the glTF validator, the viewer in a real browser; then the program on bad
-# input again under the address and undefined-behavior sanitizers.
+# good and bad input, the glTF validator, the viewer in a real browser; then the rooms, and the
+# program on bad input, again under the address and undefined-behavior sanitizers.
 #   scripts/test.sh          all
 #   scripts/test.sh --quick  without the sanitizers
 # scripts/tidy.sh (clang-tidy) is separate: it takes long and finds taste more often than mistakes.
@@ -11,10 +11,11 @@ scripts/install_packages.sh build viewer test
 scripts/build.sh ci
 ctest --preset ci -j2
 if [ "${1:-}" != --quick ]; then
-  scripts/build.sh sanitize verdigris_cli verdigris_fixture
+  scripts/build.sh sanitize
   # fontconfig keeps its patterns behind pointers that the leak checker cannot follow.
   ASAN_OPTIONS=allocator_may_return_null=1 \
     LSAN_OPTIONS=suppressions="$PWD/tests/cli/leaks.txt":print_suppressions=0 \
-    UBSAN_OPTIONS=print_stacktrace=1 ctest --preset sanitize -R '^cli\.(bad_input|stages)$'
+    UBSAN_OPTIONS=print_stacktrace=1 ctest --preset sanitize -j2 \
+    -R '^((pixels|color|files|recording|observe|forecast|material|deliver)\.|cli\.(bad_input|stages)$)'
 fi
 echo "All tests passed."
