@@ -35,7 +35,7 @@ void run(Session& session, const Arguments& a) {
 
     ObservedStage observed = run_observe(session, input, output, a.observe);
     const Observation& observation = observed.observation;
-    const SavedForecast saved = run_forecast(session, observation, a.forecast);
+    SavedForecast saved = run_forecast(session, observation, a.forecast);
     // Only now that no guard can refuse any more: a refusal leaves an earlier result whole.
     observed.commit();
     const MaterialRecipe recipe = run_material(session, observation, saved, a.material);
@@ -48,6 +48,7 @@ void run(Session& session, const Arguments& a) {
     write_options(staged.path() / kForecastFolder, forecast_options);
     write_options(staged.path() / kMaterialFolder,
                   {{"options", options["material"]}, {"forecast", forecast_options}});
+    saved.context.frames.clear();  // half of the memory, and what is delivered needs none of it
     const Json manifest = run_deliver(session, observation, saved, recipe, options, staged);
     staged.commit(kManifestFile);
 

@@ -15,7 +15,7 @@ void run(Session& session, const std::filesystem::path& output) {
     require_stage(output, kForecastFolder, "forecast");
     require_stage(output, kMaterialFolder, "materialize");
     const Observation observation = read_observation(output / kObservedFolder);
-    const SavedForecast saved = read_forecast(output / kForecastFolder);
+    SavedForecast saved = read_forecast(output / kForecastFolder);
     const MaterialRecipe recipe = read_recipe(output / kMaterialFolder);
     const bool same_size = recipe.canvas.same_size(observation.width(), observation.height()) &&
                            !saved.context.frames.empty() &&
@@ -33,6 +33,7 @@ void run(Session& session, const std::filesystem::path& output) {
     const Json options = {{"observe", read_options(output / kObservedFolder)["observe"]},
                           {"forecast", read_options(output / kForecastFolder)["options"]},
                           {"material", read_options(output / kMaterialFolder)["options"]}};
+    saved.context.frames.clear();  // as in `age`
     StagedFolder staged(output);
     const Json manifest = run_deliver(session, observation, saved, recipe, options, staged);
     staged.commit(kManifestFile);

@@ -31,6 +31,18 @@ if [ -e "$scratch/age/viewer.html" ]; then
   "$verdigris" view "$scratch/age" --print >"$scratch/out"
   grep -q viewer.html "$scratch/out" || fail "view --print"
 fi
+# The limit of the code: 1.5 times 98.4.
+"$verdigris" age --help | tr -s ' \n' '  ' | grep -q "fewer than 148 frames" ||
+  fail "--help gives another number of frames than the code"
+# What takes much memory is announced before it is taken. Four frames: refused right after, so that
+# the test does not take it.
+"$verdigris" forecast "$scratch/steps" >"$scratch/out"
+! grep -q "GB of memory" "$scratch/out" || fail "a small run is said to take much memory"
+"$fixture" plate "$scratch/four" 4 64
+"$verdigris" observe "$scratch/four" -o "$scratch/wide" --size 3400 --quiet
+"$verdigris" forecast "$scratch/wide" >"$scratch/out" 2>/dev/null && fail "four frames are enough"
+grep -q "3400x3400 pixels with a context of 4 take about 2.3 GB of memory" "$scratch/out" ||
+  fail "much memory is not announced: $(cat "$scratch/out")"
 # Guards.
 "$verdigris" age "$scratch/plate" -o "$scratch/long" --horizons 5,200 --quiet --json >"$scratch/out"
 grep -q long_horizon "$scratch/out" ||
