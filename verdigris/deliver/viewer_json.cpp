@@ -41,8 +41,10 @@ Json blob_json(const Blob& blob) {
 class Slots {
   public:
     Json* add(std::function<Json()> make) {
-        jobs_.push_back({std::make_unique<Json>(), std::move(make)});
-        return jobs_.back().slot.get();
+        Job& job = jobs_.emplace_back();
+        job.slot = std::make_unique<Json>();
+        job.make = std::move(make);
+        return job.slot.get();
     }
     void run(const Progress& progress) {
         std::mutex reporting;

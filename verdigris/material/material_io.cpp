@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 #include <utility>
 
 #include "verdigris/error.h"
@@ -50,15 +51,20 @@ constexpr std::array<Field, 15> kFields{{
 }};
 
 template <class P>
+constexpr std::size_t kChannelsOf = std::is_same_v<P, float> ? 1 : 3;
+
+template <class P>
 void write_array(const fs::path& path, const Image<P>& image) {
     std::vector<std::size_t> shape{std::size_t(image.height()), std::size_t(image.width())};
-    if (sizeof(P) > sizeof(float)) shape.push_back(sizeof(P) / sizeof(float));
+    constexpr std::size_t kChannels = kChannelsOf<P>;
+    if (kChannels > 1) shape.push_back(kChannels);
     write_npy(path, NpyType::f32, shape, std::as_bytes(image.pixels()));
 }
 
 template <class P>
 Image<P> read_array(const fs::path& path) {
-    constexpr std::size_t kChannels = sizeof(P) / sizeof(float), kLargest = 1u << 20;
+    constexpr std::size_t kChannels = kChannelsOf<P>, kLargest = 1u << 20;
+    static_assert(sizeof(P) == kChannels * sizeof(float));
     const NpyFile file(path);
     const auto& shape = file.shape();
     const auto values = file.values<float>();
