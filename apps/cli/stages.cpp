@@ -304,7 +304,7 @@ Json run_deliver(Session& session, const Observation& observation, const SavedFo
     delivery.facts.emplace_back("options",
                                 options.dump(-1, ' ', false, Json::error_handler_t::replace));
 
-    const fs::path root = staged.path();
+    const fs::path& root = staged.path();
     std::vector<fs::path> files;
     for (const fs::path& file : write_textures(delivery, root / kTexturesFolder, progress)) {
         files.push_back(fs::path(kTexturesFolder) / file);

@@ -75,8 +75,9 @@ void apply_color(Decoded& picture, Want want) {
                              "converted to sRGB from the embedded profile '" + profile.name() +
                                  "'; colors outside of sRGB are clipped"});
     if (want == Want::header) return;
+    using Pixels = decltype(picture.pixels);  // named here: Clang 14 crashes if the lambda says it
     picture.pixels = std::visit(
-        [&](auto& image) -> decltype(picture.pixels) {
+        [&](auto& image) -> Pixels {
             using P = std::remove_reference_t<decltype(image(0, 0))>;
             if constexpr (kIsEncoded<P>) return profile.srgb_from(image.view());
             return std::move(image);
