@@ -80,7 +80,7 @@ HWY_ATTR void add_rows(const TrimRow<T>& row, const T* const* rows, int count, b
     using D = hn::ScalableTag<T>;
     const D d;
     const std::size_t lanes = hn::Lanes(d);
-    constexpr std::size_t kSlots = K > 0 ? K : 1;
+    constexpr std::size_t kSlots = K > 0 ? K : 1;  // NOLINT(bugprone-branch-clone): not for K = 1
     HWY_ALIGN std::array<T, 64> tail{};
     for (std::size_t x = 0; x < row.n; x += lanes) {
         Sums<T> sums;

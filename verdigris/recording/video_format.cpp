@@ -303,9 +303,11 @@ VideoFormat read_video_format(const AVFrame& frame, const AVStream& stream,
     }
     const AVRational shape = stream.codecpar->sample_aspect_ratio;
     if (shape.num > 0 && shape.den > 0 && shape.num != shape.den) {
-        out.notes.push_back({"pixel_shape", Severity::info,
+        out.notes.push_back({"pixel_shape", Severity::caution,
                              "its pixels are not square (" + std::to_string(shape.num) + ":" +
-                                 std::to_string(shape.den) + "); they are kept as coded"});
+                                 std::to_string(shape.den) +
+                                 ") and are kept as coded: the specimen looks squeezed; convert "
+                                 "the recording to square pixels first"});
     }
     return out;
 }
