@@ -9,6 +9,9 @@
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "verdigris/observe/observation_io.h"
 #include "verdigris/observe/observe.h"
@@ -33,7 +36,20 @@ int main(int argc, char** argv) try {
     if (!folder.empty()) options.store = folder / "samples.npy";
     const auto start = std::chrono::steady_clock::now();
     const Recording recording = open_recording(argv[1]);
-    const Observation o = observe(recording, options);
+    // Seconds per stage: from its first report to that of the next.
+    std::vector<std::pair<std::string, double>> stages{{"open", 0}};
+    const auto now = [&start] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    const Progress progress = [&](std::string_view stage, std::int64_t, std::int64_t) {
+        if (stages.back().first != stage) stages.emplace_back(stage, now());
+        return true;
+    };
+    const Observation o = observe(recording, options, progress);
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        const double end = i + 1 < stages.size() ? stages[i + 1].second : now();
+        std::fprintf(stderr, "%-8s %7.3f s\n", stages[i].first.c_str(), end - stages[i].second);
+    }
     if (!folder.empty()) write_observation(o, folder);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# The frame rate of observe() over that of `ffmpeg -i CLIP -f null -`, on the same clip, one after
-# the other, best of three. Target: 0.8 or more, and at most 600 MB.
+# The frame rate of observe() over that of `ffmpeg -i CLIP -f null -`, on the same clip, taking
+# turns; the median of five rounds' ratios. Target: 0.8 or more, and at most 600 MB.
 #   bench/observe_vs_ffmpeg.sh PATH_OF_observe_clip [CLIP]
 # Without a CLIP, one minute of 1080p60 H.264 is made: a plate that darkens before a backdrop with
 # grain. Encoding takes a few minutes.
@@ -22,20 +22,26 @@ hue=b='-2*t/$seconds':s='1-0.4*t/$seconds'" \
 fi
 frames=$(ffprobe -v error -select_streams v:0 -count_packets \
     -show_entries stream=nb_read_packets -of csv=p=0 "$clip")
-best() {  # the least wall time of three runs, seconds
-    local least=1e9 start end
-    for _ in 1 2 3; do
-        start=$(date +%s.%N)
-        "$@" >&2
-        end=$(date +%s.%N)
-        least=$(awk -v a="$least" -v b="$end" -v c="$start" 'BEGIN{t=b-c; print (t<a)?t:a}')
-    done
-    echo "$least"
+taken() {  # wall seconds
+    local start end
+    start=$(date +%s.%N)
+    "$@" >/dev/null 2>&1
+    end=$(date +%s.%N)
+    awk -v a="$start" -v b="$end" 'BEGIN{print b-a}'
 }
-reference=$(best ffmpeg -v error -i "$clip" -f null -)
-awk -v n="$frames" -v t="$reference" 'BEGIN{printf "ffmpeg      %8.1f fps\n", n/t}'
+median() { sort -g | awk '{v[NR]=$1} END{print (NR%2) ? v[(NR+1)/2] : (v[NR/2]+v[NR/2+1])/2}'; }
+rounds=${ROUNDS:-5}
+declare -A ratios
+for ((i = 0; i < rounds; ++i)); do
+    reference=$(taken ffmpeg -v error -i "$clip" -f null -)
+    for crop in none automatic; do
+        seconds=$(taken "$program" "$clip" "$crop")
+        ratios[$crop]+="$(awk -v t="$seconds" -v r="$reference" 'BEGIN{print r/t}') "
+    done
+    awk -v n="$frames" -v t="$reference" 'BEGIN{printf "ffmpeg %.0f fps\n", n/t}'
+done
 for crop in none automatic; do
-    seconds=$(best "$program" "$clip" "$crop")
-    awk -v n="$frames" -v t="$seconds" -v r="$reference" -v c="$crop" \
-        'BEGIN{printf "%-11s %8.1f fps   ratio %.2f\n", c, n/t, r/t}'
+    printf '%-10s ratio %.2f (' "$crop" "$(tr ' ' '\n' <<<"${ratios[$crop]}" | grep . | median)"
+    printf '%.2f ' ${ratios[$crop]}
+    "$program" "$clip" "$crop" 2>/dev/null | sed 's/.*"peak_mb": \([0-9]*\).*/) peak \1 MB/'
 done
