@@ -118,14 +118,12 @@ ChooseOptions ForecastArguments::options() const {
 
 std::vector<double> ForecastArguments::sorted_horizons() const {
     std::vector<double> h = horizons;
-    std::sort(h.begin(), h.end());
-    h.erase(std::unique(h.begin(), h.end()), h.end());
     if (h.empty()) throw Error(ErrorCode::usage, "--horizons is empty");
     if (h.size() > 64) throw Error(ErrorCode::usage, "--horizons takes at most 64 values");
     for (double v : h) {
-        if (!(v > 0) || v > 1000) {
+        if (!(v >= 0.1 - 1e-6) || v > 1000) {
             throw Error(ErrorCode::usage,
-                        fmt::format("--horizons are accelerated units above 0 and up to 1000, "
+                        fmt::format("--horizons are accelerated units from 0.1 to 1000, "
                                     "not {}",
                                     v));
         }
@@ -135,6 +133,9 @@ std::vector<double> ForecastArguments::sorted_horizons() const {
                         fmt::format("--horizons have at most one decimal, not {}", v));
         }
     }
+    for (double& v : h) v = std::round(v * 10) / 10;
+    std::sort(h.begin(), h.end());
+    h.erase(std::unique(h.begin(), h.end()), h.end());
     return h;
 }
 

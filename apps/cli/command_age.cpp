@@ -69,7 +69,10 @@ void run(Session& session, const Arguments& a) {
     }
     session.say(fmt::format("Import    {} and {}/", (output / kGltfFile).string(),
                             (output / kTexturesFolder).string()));
-    session.say("Try next  other --horizons, or --forecaster affinergb; the observation is kept");
+    session.say(std::string("Try next  other --horizons") +
+                (a.forecast.forecaster == "affinergb" ? ", or --forecaster auto"
+                                                      : ", or --forecaster affinergb") +
+                "; the observation is kept");
     session.result(manifest);
 }
 

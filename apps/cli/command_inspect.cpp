@@ -43,7 +43,7 @@ void run(Session& session, const Arguments& a) {
     line("exposure", i.drift_known
                          ? fmt::format("drifts by {:.2f} %, white balance by {:.2f} %",
                                        i.exposure_drift * 100, i.white_balance_drift * 100)
-                         : "drift unknown: without a backdrop it cannot be told from aging");
+                         : "drift unknown: there is no backdrop to measure it on");
     line("clipped", fmt::format("{:.2f} % of the specimen", i.clipped_share * 100));
     for (const Status& s : i.findings) session.tell(s);
     for (const Status& s : info.notes) {

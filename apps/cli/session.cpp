@@ -113,12 +113,10 @@ void Session::say(const std::string& line) {
 }
 
 void Session::tell(const Status& status) {
-    if (status.severity == Severity::info) {
-        say("  note: " + as_sentence(status.sentence));
-        return;
-    }
     if (printer_) printer_->clear();
-    if (!quiet) std::fprintf(stderr, "  caution: %s\n", as_sentence(status.sentence).c_str());
+    if (quiet || (json && status.severity == Severity::info)) return;
+    std::fprintf(stderr, "  %s: %s\n", status.severity == Severity::info ? "note" : "caution",
+                 as_sentence(status.sentence).c_str());
 }
 
 void Session::result(const Json& object) {

@@ -130,7 +130,10 @@ void check_output_folder(const fs::path& output, const fs::path& input, bool for
     if (is_ours(output)) {
         const Json manifest = earlier_manifest(output);
         const std::string name = manifest.is_null() ? "" : manifest["input"].value("name", "");
-        if (!force && !name.empty() && name != input_name(input)) {
+        // As the manifest has it: what is not UTF-8 in a name was replaced there.
+        const Json asked = Json::parse(
+            Json(input_name(input)).dump(-1, ' ', false, Json::error_handler_t::replace));
+        if (!force && !name.empty() && name != asked.get<std::string>()) {
             throw Error(ErrorCode::refused,
                         "holds the result of '" + name +
                             "', another recording; choose another "

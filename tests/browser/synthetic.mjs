@@ -59,7 +59,7 @@ export function makeDocument({ width = 37, height = 29, order = 1, clamp = true,
     }
     const deviation = [0, 1, 2].reduce((s, k) => s + Math.abs(base[i * 3 + k] - canvas[i * 3 + k]), 0) / 3;
     zone.push(Math.max(0.01, deviation));
-    active.push(inside && !(x > 14 && x < 18) ? 1 : 0);
+    active.push(!inside ? 0 : x > 14 && x < 18 ? 0.5 : 1);   // backdrop, under a glint, specimen
     fill.push(x > 14 && x < 18 ? 0.4 : -1);
   }
   const material = { ...kMaterial, ...changed };
@@ -127,7 +127,7 @@ export function reference({ doc, truth }, h) {
       change += Math.abs(albedo[j] - truth.canvas[j]) / 3;
     }
     const p = Math.min(Math.max((change - truth.zone[i]) / m.normalizer, 0), 1);
-    coverage[i] = truth.active[i] > 0.5 ? p ** m.coverage_exponent : 0;
+    coverage[i] = truth.active[i] > 0.75 ? p ** m.coverage_exponent : 0;
     luma[i] = truth.fill[i] >= 0 ? truth.fill[i]
       : 0.2126 * albedo[i * 3] + 0.7152 * albedo[i * 3 + 1] + 0.0722 * albedo[i * 3 + 2];
   }
@@ -148,10 +148,11 @@ export function reference({ doc, truth }, h) {
   const tall = smooth.map((v, i) =>
     Math.min(Math.max((1 - m.height_patina_weight) * v + m.height_patina_weight * coverage[i], 0), 1));
   const low = gaussian(tall, m.micro_sigma);
+  const surface = coverage.map((p, i) => truth.active[i] < 0.25 ? 1 : p);   // the backdrop is no metal
   const roughness = tall.map((v, i) => Math.min(Math.max(
-    m.roughness_clean + (m.roughness_patina - m.roughness_clean) * coverage[i] ** m.roughness_gamma +
+    m.roughness_clean + (m.roughness_patina - m.roughness_clean) * surface[i] ** m.roughness_gamma +
     Math.min(Math.max((v - low[i]) / m.micro_range, -1), 1) * m.micro_roughness, 0.04), 1));
-  const metallic = coverage.map((p) =>
+  const metallic = surface.map((p) =>
     m.metallic_patina + (m.metallic_clean - m.metallic_patina) * (1 - p) ** m.metallic_gamma);
   const normal = new Float64Array(n * 3), k = (m.normal_scale * m.normal_gain) / 8;
   for (let y = 0; y < height; y++) for (let x = 0; x < width; x++) {

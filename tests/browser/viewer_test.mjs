@@ -99,7 +99,7 @@ await withBrowser(async (context) => {
     const m = made.doc.material, t = made.truth;
     const worst = coverage.reduce((w, p, i) => {
       const change = [0, 1, 2].reduce((s, k) => s + Math.abs(albedo[i * 3 + k] - t.canvas[i * 3 + k]), 0) / 3;
-      const expected = t.active[i] > 0.5 ? Math.min(Math.max((change - t.zone[i]) / m.normalizer, 0), 1) ** m.coverage_exponent : 0;
+      const expected = t.active[i] > 0.75 ? Math.min(Math.max((change - t.zone[i]) / m.normalizer, 0), 1) ** m.coverage_exponent : 0;
       return Math.max(w, Math.abs(p - expected));
     }, 0);
     assert.ok(Math.max(...coverage) > 0.05, "nothing is covered: it tests nothing");

@@ -43,7 +43,7 @@ void draw_header(SheetCanvas& canvas, const Delivery& delivery, const SheetLayou
     const double width = s.width - 2 * s.margin;
     put(canvas, s.margin, s.title_y, width, delivery.title, kTitle);
     put(canvas, s.margin, s.facts_y, width,
-        fmt::format("Forecaster: {}  \xC2\xB7  fitted on the last n = {} frames  \xC2\xB7  {:.4g} "
+        fmt::format("Forecaster: {}  \xC2\xB7  context: the last n = {} frames  \xC2\xB7  {:.4g} "
                     "units observed",
                     delivery.forecast->forecaster, delivery.forecast->context_length,
                     delivery.units_observed),
@@ -165,10 +165,14 @@ Image<SrgbU8> draw_contact_sheet(const Delivery& delivery, const Progress& progr
     }
     draw_maps(canvas, s, tiles);
     notes.draw(canvas, s.notes.x, s.notes.y);
+    const Forecast& forecast = *delivery.forecast;
+    const bool held = forecast.is_trajectory() && forecast.trajectory.law.order == 0;
     canvas.line(s.margin, footer_y - 30, s.width - s.margin, footer_y - 30, kRule, 1, false);
     put(canvas, s.margin, footer_y, s.width - 2 * s.margin,
         fmt::format(
-            "Forecast frames and all maps are computed, not photographed.  \xC2\xB7  verdigris {}",
+            "{} computed, not photographed.  \xC2\xB7  verdigris {}",
+            held ? "The forecast is the last observed frame, held; all maps but the albedo are"
+                 : "Forecast frames and all maps are",
             writer_version()),
         kFooter);
     return canvas.pixels();

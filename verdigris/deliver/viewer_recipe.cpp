@@ -10,11 +10,12 @@ namespace {
 // chosen: a coarse pixel is what at least half of its area is.
 constexpr float kMajority = 0.5f;
 
-Image<float> active_share(const MaterialRecipe& recipe) {
+/// 1 where the mask is at least `least`.
+Image<float> share_of(const MaterialRecipe& recipe, int least) {
     Image<float> share(recipe.canvas.width(), recipe.canvas.height());
     const bool all = recipe.active.empty();
     for (std::size_t i = 0; i < share.pixel_count(); ++i) {
-        share.pixels()[i] = all || recipe.active.pixels()[i] != 0 ? 1.0f : 0.0f;
+        share.pixels()[i] = all || recipe.active.pixels()[i] >= least ? 1.0f : 0.0f;
     }
     return share;
 }
@@ -32,8 +33,12 @@ ViewerRecipe viewer_recipe(const MaterialRecipe& recipe, PictureSize extent) {
     result.options.normal_gain /= factor;
     result.canvas = resampled(canvas, extent);
     result.dead_zone = resampled(recipe.dead_zone, extent);
-    result.active = resampled(active_share(recipe), extent);
-    for (float& v : result.active.pixels()) v = v >= kMajority ? 1.0f : 0.0f;
+    result.active = resampled(share_of(recipe, kInside), extent);
+    const Image<float> specimen = resampled(share_of(recipe, kUnderGlint), extent);
+    for (std::size_t i = 0; i < specimen.pixel_count(); ++i) {
+        float& v = result.active.pixels()[i];
+        v = specimen.pixels()[i] < kMajority ? 0.0f : v >= kMajority ? 1.0f : 0.5f;
+    }
 
     // Weighted: the average of fills over filled pixels is average(fill * w) / average(w).
     Image<float> weight(canvas.width(), canvas.height()), fill(canvas.width(), canvas.height());

@@ -164,8 +164,8 @@ Forecaster affinergb(const AffineOptions& options) {
                 Forecast forecast;
                 forecast.forecaster = affine_name(options);
                 forecast.explanation = fmt::format(
-                    "One color drift for the whole specimen ({}, order {}), fitted to the {} "
-                    "observed frames and continued.",
+                    "One color drift for the whole specimen ({}, order {}), fitted to the last "
+                    "{} observed frames and continued.",
                     to_string(options.family), options.order, context.length());
                 forecast.trajectory = affine_trajectory(
                     fit, context.frames.back(), moving_mask(context), context.length(), options);

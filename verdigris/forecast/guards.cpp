@@ -37,15 +37,16 @@ std::string percent(double share) {
 }
 
 std::string frames_word(int n) {
-    return n == 1 ? "1 frame was" : fmt::format("{} frames were", n);
+    return n == 1 ? "1 frame" : fmt::format("{} frames", n);
 }
 
 std::optional<Status> few_frames(const Context& context) {
     if (context.length() >= kMinContext) return {};
-    return Status{"few_frames", Severity::refusal,
-                  fmt::format("Only {} observed; below {} the fit is worse than doing nothing. "
-                              "Record more, or use --force.",
-                              frames_word(context.length()), kMinContext)};
+    return Status{
+        "few_frames", Severity::refusal,
+        fmt::format("The context has only {}; below {} the fit is worse than doing nothing. "
+                    "Raise --context or record more; --force goes on all the same.",
+                    frames_word(context.length()), kMinContext)};
 }
 
 std::optional<Status> long_horizon(const Context& context, const Forecast& forecast,
@@ -58,7 +59,7 @@ std::optional<Status> long_horizon(const Context& context, const Forecast& forec
     if (beyond.empty()) return {};
     const bool one = beyond.size() == 1;
     const std::string where =
-        fmt::format("{} {} beyond +{}, twice the {} frames observed", fmt::join(beyond, ", "),
+        fmt::format("{} {} beyond +{}, twice the context of {} frames", fmt::join(beyond, ", "),
                     one ? "lies" : "lie", limit, context.length());
     if (forecast.is_trajectory() && forecast.trajectory.law.order == 0) {
         return Status{"long_horizon", Severity::caution,
@@ -113,16 +114,17 @@ std::optional<Status> out_of_gamut(const Forecast& forecast, const Mask& moving,
     std::vector<std::string> parts;
     for (double h : horizons) {
         const double share = share_outside(forecast, h, moving);
-        if (share > kMaxOutOfGamut) parts.push_back(fmt::format("{} at +{}", percent(share), h));
+        if (share > kMaxOutOfGamut)
+            parts.push_back(fmt::format("{} of the specimen at +{}", percent(share), h));
     }
     if (parts.empty()) return {};
     const bool held = forecast.is_trajectory() && forecast.trajectory.clamp;
-    return Status{"out_of_gamut", Severity::caution,
-                  fmt::format("The drift carries {} of the specimen past black or white; {}",
-                              fmt::join(parts, ", "),
-                              held ? "there each pixel was frozen at the last color it could have, "
-                                     "so its later age is understated."
-                                   : "those colors do not exist and will be cut off on display.")};
+    return Status{
+        "out_of_gamut", Severity::caution,
+        fmt::format("The drift carries {} past black or white; {}", fmt::join(parts, ", "),
+                    held ? "there each pixel was frozen at the last color it could have, "
+                           "so its later age is understated."
+                         : "those colors do not exist and will be cut off on display.")};
 }
 
 std::optional<Status> mostly_clipped(const Context& context) {
@@ -158,8 +160,8 @@ std::optional<Status> no_change(const Context& context, const Mask& moving) {
     if (all == 0 || double(moved) > kStillShare * double(all)) return {};
     return Status{"no_change", Severity::info,
                   fmt::format("Between the first and the last of the {} observed frames the "
-                              "specimen changed by less than the noise of the recording; there is "
-                              "no aging here to continue.",
+                              "pixels of the specimen changed by less than their noise; only the "
+                              "mean over many of them can show aging here.",
                               context.length())};
 }
 

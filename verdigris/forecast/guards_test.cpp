@@ -32,8 +32,8 @@ TEST(Guards, FewFramesIsARefusal) {
     ASSERT_NE(few, nullptr);
     EXPECT_EQ(few->severity, Severity::refusal);
     EXPECT_EQ(few->sentence,
-              "Only 3 frames were observed; below 5 the fit is worse than doing nothing. Record "
-              "more, or use --force.");
+              "The context has only 3 frames; below 5 the fit is worse than doing nothing. Raise "
+              "--context or record more; --force goes on all the same.");
     try {
         refuse_if_needed(guards);
         FAIL();
@@ -43,7 +43,7 @@ TEST(Guards, FewFramesIsARefusal) {
     }
     EXPECT_EQ(find(guards_of(drifting(5, planted_drift(), 0.001)), "few_frames"), nullptr);
     EXPECT_NO_THROW(refuse_if_needed(guards_of(drifting(5, planted_drift(), 0.001), {50})));
-    EXPECT_NE(find(guards_of(drifting(1, {})), "few_frames")->sentence.find("Only 1 frame was"),
+    EXPECT_NE(find(guards_of(drifting(1, {})), "few_frames")->sentence.find("only 1 frame;"),
               std::string::npos);
 }
 
@@ -233,7 +233,8 @@ TEST(Guards, WorkOnANetworksFrames) {
     network.stack.frames.push_back(paint(48, 40, [](int, int) { return SrgbF{1.2f, 0.5f, 0.5f}; }));
     const Statuses guards = check_guards(context, network, {10});
     ASSERT_NE(find(guards, "out_of_gamut"), nullptr);
-    EXPECT_NE(find(guards, "out_of_gamut")->sentence.find("100 % at +10"), std::string::npos);
+    EXPECT_NE(find(guards, "out_of_gamut")->sentence.find("100 % of the specimen at +10"),
+              std::string::npos);
 }
 
 }  // namespace

@@ -129,6 +129,16 @@ Image<float> fill_luma(const Image<SrgbF>& canvas, const Mask& specimen, const M
     return fill;
 }
 
+bool fill_values(Image<float>& values, const Mask& specimen, const Mask& clipped) {
+    Image<float> filled = values.clone();
+    if (!fill_holes(filled, specimen, clipped)) return false;
+    for (std::size_t i = 0; i < values.pixel_count(); ++i) {
+        const bool on_specimen = specimen.empty() || specimen.pixels()[i] != 0;
+        if (on_specimen && clipped.pixels()[i] != 0) values.pixels()[i] = filled.pixels()[i];
+    }
+    return true;
+}
+
 void fill_colors(Image<SrgbF>& image, const Mask& specimen, const Mask& holes) {
     for (float SrgbF::*channel : {&SrgbF::r, &SrgbF::g, &SrgbF::b}) {
         Image<float> values(image.width(), image.height());

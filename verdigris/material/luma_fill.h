@@ -12,6 +12,11 @@ namespace verdigris {
 /// there is nothing to interpolate from. Empty masks: all specimen, none clipped.
 Image<float> fill_luma(const Image<SrgbF>& canvas, const Mask& specimen, const Mask& clipped);
 
+/// The same for any number per pixel, in place: those under `clipped` on the specimen follow from
+/// around them, the rest stays. False, and nothing changed, if there is nothing to fill or to fill
+/// from.
+bool fill_values(Image<float>& values, const Mask& specimen, const Mask& clipped);
+
 /// The same for colors, in place: `holes` on the specimen take the colors around them.
 void fill_colors(Image<SrgbF>& image, const Mask& specimen, const Mask& holes);
 

@@ -14,6 +14,9 @@
 
 namespace verdigris {
 
+/// Specimen that a glint hides, in MaterialRecipe::active.
+inline constexpr std::uint8_t kUnderGlint = 128;
+
 /// The paper's constants [Paper, Section 3] unless marked.
 struct MaterialOptions {
     double coverage_exponent = 0.85;
@@ -57,7 +60,9 @@ struct MaterialRecipe {
     double tau = 0;
     double normalizer = 1;  ///< s of Eq. (2); 1 if nothing changes
     double reference_horizon = 0;
-    Mask active;  ///< specimen and not clipped: elsewhere coverage is 0
+    /// kInside: specimen, covered by Eq. (2). kUnderGlint: specimen that was clipped, coverage 0.
+    /// 0: backdrop, coverage 0 and no metal. Empty: kInside everywhere.
+    Mask active;
     /// Luma to use where a pixel is clipped (a smooth fill), so that a glint raises no bump;
     /// negative elsewhere.
     Image<float> luma_fill;

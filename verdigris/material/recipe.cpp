@@ -62,7 +62,7 @@ Mask active_mask(const Context& context) {
     for (std::size_t i = 0; i < active.pixel_count(); ++i) {
         const bool specimen = context.specimen.empty() || context.specimen.pixels()[i] != 0;
         const bool clipped = !context.clipped.empty() && context.clipped.pixels()[i] != 0;
-        active.pixels()[i] = specimen && !clipped ? kInside : 0;
+        active.pixels()[i] = !specimen ? std::uint8_t(0) : clipped ? kUnderGlint : kInside;
     }
     return active;
 }
@@ -92,7 +92,7 @@ double normalizer(const Image<float>& change, const Mask& active, double tau, do
     std::vector<float> above;
     for (std::size_t i = 0; i < change.pixel_count(); ++i) {
         const float c = change.pixels()[i];
-        if (active.pixels()[i] != 0 && double(c) > tau) above.push_back(c);
+        if (active.pixels()[i] == kInside && double(c) > tau) above.push_back(c);
     }
     if (above.empty()) return 1;
     const auto rank = std::ptrdiff_t(std::lround(percentile * double(above.size() - 1)));
@@ -119,6 +119,29 @@ void check_inputs(const Context& context, const Forecast& forecast) {
     }
 }
 
+/// Counted from a clean state, what is clipped now is covered as the specimen around it: a bright
+/// salt in one saturated channel is no polished metal. The coverage is the recipe's own equation of
+/// |X - C|, so C is moved along X - C until the change is that around it; the drift is 0 there.
+void cover_clipped(MaterialRecipe& recipe, const Context& context, const Image<SrgbF>& now) {
+    if (context.clipped.empty()) return;
+    const Image<float> change = change_map(now, recipe.canvas);
+    Image<float> filled = change.clone();
+    if (!fill_values(filled, context.specimen, context.clipped)) return;
+    for (std::size_t i = 0; i < filled.pixel_count(); ++i) {
+        if (recipe.active.pixels()[i] != kUnderGlint) continue;
+        const float is = change.pixels()[i], wanted = filled.pixels()[i];
+        const SrgbF x = now.pixels()[i];
+        SrgbF& c = recipe.canvas.pixels()[i];
+        if (is > 1e-4f) {
+            const float s = wanted / is;
+            c = {x.r - s * (x.r - c.r), x.g - s * (x.g - c.g), x.b - s * (x.b - c.b)};
+        } else {
+            c = {x.r - wanted, x.g - wanted, x.b - wanted};
+        }
+        recipe.active.pixels()[i] = kInside;
+    }
+}
+
 }  // namespace
 
 bool has_left(const Image<SrgbF>& start, const Context& context) {
@@ -128,7 +151,7 @@ bool has_left(const Image<SrgbF>& start, const Context& context) {
     double sum = 0;
     std::int64_t count = 0;
     for (std::size_t i = 0; i < change.pixel_count(); ++i) {
-        if (active.pixels()[i] == 0) continue;
+        if (active.pixels()[i] != kInside) continue;
         sum += double(change.pixels()[i]);
         ++count;
     }
@@ -156,6 +179,7 @@ MaterialRecipe prepare_material(const Context& context, const Forecast& forecast
         // A glint in the clean state says nothing about the metal under it: the metal around does.
         fill_colors(recipe.canvas, context.specimen, saturated(recipe.canvas));
         recipe.dead_zone = Image<float>(recipe.canvas.width(), recipe.canvas.height());
+        cover_clipped(recipe, context, forecast.at(0));
     } else {
         recipe.dead_zone = change_map(forecast.at(0), recipe.canvas);
     }
@@ -165,8 +189,9 @@ MaterialRecipe prepare_material(const Context& context, const Forecast& forecast
         options.reference_horizon > 0 ? options.reference_horizon : 2.0 * context.length();
     recipe.reference_horizon =
         forecast.is_trajectory() ? asked : std::min(asked, forecast.stack.horizons.back());
-    recipe.normalizer = normalizer(change_map(forecast.at(recipe.reference_horizon), recipe.canvas),
-                                   recipe.active, context.tau, options.normalizer_percentile);
+    recipe.normalizer =
+        normalizer(change_map(forecast.at(recipe.reference_horizon), recipe.canvas),
+                   active_mask(context), context.tau, options.normalizer_percentile);
     return recipe;
 }
 

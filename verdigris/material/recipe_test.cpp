@@ -91,13 +91,41 @@ TEST(Coverage, LeavesBackdropAndGlintAlone) {
     for (int y = 0; y < 40; ++y) {
         for (int x = 0; x < 60; ++x) {
             const bool active = context.specimen(x, y) && !context.clipped(x, y);
-            EXPECT_EQ(recipe.active(x, y), active ? kInside : 0);
-            if (!active) {
-                EXPECT_EQ(m.coverage(x, y), 0);
-                EXPECT_NEAR(m.metallic(x, y), 0.97, 1e-6);
-            }
+            const bool specimen = context.specimen(x, y);
+            EXPECT_EQ(recipe.active(x, y), active ? kInside : specimen ? kUnderGlint : 0);
+            if (active) continue;
+            EXPECT_EQ(m.coverage(x, y), 0);
+            // The metal under a glint stays metal; the backdrop never was.
+            EXPECT_NEAR(m.metallic(x, y), specimen ? 0.97 : 0.03, 1e-6);
+            EXPECT_GE(m.roughness(x, y), specimen ? 0.04 : 0.88 - 0.06 - 1e-5);
         }
     }
+}
+
+// A vivid salt saturates one channel: it is covered like the salts around it, not polished metal.
+TEST(Coverage, CountedFromTheStartGoesOnUnderWhatIsClipped) {
+    Context context = copper_context(60, 40, 6);
+    const Forecast forecast = straight_forecast(context, {0, 0, 0});
+    const Image<SrgbF> now = forecast.at(0);
+    Image<SrgbF> start = now.clone();
+    for (SrgbF& c : start.pixels()) c = {c.r + 0.25f, c.g + 0.1f, c.b - 0.05f};
+    const MaterialRecipe recipe = prepare_material(context, forecast, {}, &start);
+    Material m;
+    materialize(recipe, forecast, 10, m);
+    int clipped = 0;
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 60; ++x) {
+            if (!context.specimen(x, y)) {
+                EXPECT_EQ(m.coverage(x, y), 0);
+                continue;
+            }
+            clipped += context.clipped(x, y) != 0;
+            EXPECT_EQ(recipe.active(x, y), kInside);
+            // The specimen around is covered by 0.7 and more; the paper's 0 would be a hole.
+            EXPECT_GT(m.coverage(x, y), 0.6) << x << ", " << y;
+        }
+    }
+    EXPECT_GT(clipped, 5);
 }
 
 TEST(Glint, RaisesNoBump) {

@@ -77,12 +77,15 @@ inline Material materialize(const MaterialRecipe& recipe, const Image<SrgbF>& fr
                                   3;
             const double excess =
                 std::clamp((change - double(recipe.dead_zone(x, y))) / recipe.normalizer, 0.0, 1.0);
-            const double p = recipe.active(x, y) ? std::pow(excess, o.coverage_exponent) : 0;
+            const int zone = recipe.active(x, y);
+            const double p = zone == kInside ? std::pow(excess, o.coverage_exponent) : 0;
+            const double surface = zone == 0 ? 1 : p;  // the backdrop is no metal
             m.coverage(x, y) = float(p);
-            m.metallic(x, y) = float(o.metallic_patina + (o.metallic_clean - o.metallic_patina) *
-                                                             std::pow(1 - p, o.metallic_gamma));
+            m.metallic(x, y) =
+                float(o.metallic_patina + (o.metallic_clean - o.metallic_patina) *
+                                              std::pow(1 - surface, o.metallic_gamma));
             m.roughness(x, y) = float(o.roughness_clean + (o.roughness_patina - o.roughness_clean) *
-                                                              std::pow(p, o.roughness_gamma));
+                                                              std::pow(surface, o.roughness_gamma));
             brightness(x, y) = recipe.luma_fill(x, y) >= 0 ? recipe.luma_fill(x, y) : luma(c);
         }
     }

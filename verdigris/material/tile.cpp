@@ -74,11 +74,15 @@ HWY_INLINE void color_at(D d, const TileJob& job, const ColorRow& row, std::size
     auto e = hn::Mul(hn::Sub(change, hn::LoadU(d, row.dead_zone + x)),
                      hn::Set(d, float(1 / job.recipe->normalizer)));
     e = hn::Min(hn::Max(e, zero), one);
+    auto metal_share = one;  // 0 on the backdrop
     if (row.active != nullptr) {
         const hn::Rebind<std::uint8_t, D> d8;
         const hn::RebindToSigned<D> d32;
         const auto active = hn::PromoteTo(d32, hn::LoadU(d8, row.active + x));
-        e = hn::IfThenElseZero(hn::RebindMask(d, hn::Ne(active, hn::Zero(d32))), e);
+        const auto inside = hn::Gt(active, hn::Set(d32, kUnderGlint));
+        e = hn::IfThenElseZero(hn::RebindMask(d, inside), e);
+        const auto backdrop = hn::Eq(active, hn::Zero(d32));
+        metal_share = hn::IfThenZeroElse(hn::RebindMask(d, backdrop), one);
     }
 
     auto luma = hn::Mul(hn::Set(d, kLumaR), color.r);
@@ -106,6 +110,8 @@ HWY_INLINE void color_at(D d, const TileJob& job, const ColorRow& row, std::size
     }
     hn::StoreU(p, d, row.p + x);
     if (kEmit) {
+        rest = hn::Mul(rest, metal_share);
+        p_rough = hn::Max(p_rough, hn::Sub(one, metal_share));
         store_rgb(d, color, row.albedo + 3 * x);
         hn::StoreU(p, d, row.coverage + x);
         const auto metal = hn::MulAdd(hn::Set(d, float(o.metallic_clean - o.metallic_patina)), rest,

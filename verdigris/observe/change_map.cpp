@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "verdigris/color/convert.h"
 #include "verdigris/observe/noise.h"
@@ -141,12 +142,22 @@ ChangeMap change_map(const Look& look) {
     if (!map.majority) others = Mask();
 
     std::vector<Image<SrgbF>> even(count);  // without the drift of exposure and white balance
+    // Without such a majority the gain would be fitted on the specimen and its aging divided out:
+    // light and aging cannot be told apart then, and all change counts. Nor can they before a
+    // backdrop too dark or too bright to measure on.
+    std::vector<std::optional<Gain>> measured(count);
+    if (map.majority) {
+        parallel_for(int(count), [&](int i) {
+            const auto n = std::size_t(i);
+            measured[n] = robust_gain(first, look.frames[n], others);
+        });
+        map.majority = std::all_of(measured.begin(), measured.end(),
+                                   [](const auto& gain) { return gain.has_value(); });
+    }
     map.gains.resize(count);
     parallel_for(int(count), [&](int i) {
         const auto n = std::size_t(i);
-        // Without such a majority the gain would be fitted on the specimen and its aging divided
-        // out: light and aging cannot be told apart then, and all change counts.
-        if (map.majority) map.gains[n] = robust_gain(first, look.frames[n], others);
+        if (map.majority) map.gains[n] = *measured[n];
         even[n] = Image<SrgbF>::for_overwrite(map.width, map.height);
         for (std::size_t p = 0; p < pixels; ++p) {
             even[n].pixels()[p] = apart_from(look.frames[n].pixels()[p], map.gains[n]);

@@ -26,7 +26,7 @@ struct SpecimenFinding {
     double area_share = 0;    ///< mask over the frame
     double score_ratio = 0;   ///< best candidate over the runner-up; 0 if only one
     std::vector<Gain> gains;  ///< of the unchanging majority, every look against the first
-    bool majority = true;     ///< false: hardly anything but copper to measure the gain on
+    bool majority = true;     ///< false: nothing to measure the gain on
     double change = 0;        ///< mean |last - first| inside the mask, gains removed, encoded units
 };
 

@@ -36,9 +36,11 @@ Drift measure_drift(const SpecimenFinding& finding) {
 
 void note_drift(const Drift& drift, Statuses& notes) {
     if (!drift.known) {
-        notes.push_back({"light_unknown", Severity::info,
-                         "there is nothing but specimen in the frame, so light that drifts cannot "
-                         "be told from aging; a strip of backdrop would show it"});
+        notes.push_back(
+            {"light_unknown", Severity::info,
+             "nothing in the frame shows the light alone (a backdrop that is neither "
+             "copper-colored nor black nor overexposed), so light that drifts cannot be "
+             "told from aging"});
         return;
     }
     if (drift.exposure > kExposure) {

@@ -17,6 +17,7 @@ constexpr double kTukey = 4.685;  // 95 % efficiency under a Gaussian [Holland19
 constexpr double kSigmaOverMad = 1.4826;
 constexpr int kIterations = 5;            // chosen: the weights settle in three
 constexpr std::size_t kMaxPixels = 5000;  // chosen: of 1 % noise, the gain is exact to 2e-4
+constexpr double kLeastShare = 20;        // chosen: a twentieth must be fit to measure on
 constexpr float kDark = 0.03f;            // chosen: below 8 of 255 a ratio is mostly noise
 
 double median_of(std::vector<float>& values) {
@@ -27,10 +28,7 @@ double median_of(std::vector<float>& values) {
 
 double channel_gain(const std::vector<float>& reference, const std::vector<float>& image) {
     std::vector<float> scratch;
-    for (std::size_t i = 0; i < image.size(); ++i) {
-        if (reference[i] > kDark) scratch.push_back(image[i] / reference[i]);
-    }
-    if (scratch.size() < 16) return 1;
+    for (std::size_t i = 0; i < image.size(); ++i) scratch.push_back(image[i] / reference[i]);
     double gain = median_of(scratch);
     for (int iteration = 0; iteration < kIterations; ++iteration) {
         scratch.clear();
@@ -75,10 +73,13 @@ void read_lattice(const Plane& plane, double black, std::vector<float>& out) {
 
 }  // namespace
 
-Gain robust_gain(const Image<SrgbF>& reference, const Image<SrgbF>& image, const Mask& where) {
+std::optional<Gain> robust_gain(const Image<SrgbF>& reference, const Image<SrgbF>& image,
+                                const Mask& where) {
     std::vector<std::size_t> chosen;
+    std::size_t asked = 0;
     for (std::size_t i = 0; i < image.pixel_count(); ++i) {
         if (!where.empty() && where.pixels()[i] != kInside) continue;
+        ++asked;
         if (is_clipped(reference.pixels()[i]) || is_clipped(image.pixels()[i])) continue;
         chosen.push_back(i);
     }
@@ -88,12 +89,18 @@ Gain robust_gain(const Image<SrgbF>& reference, const Image<SrgbF>& image, const
     for (std::size_t c = 0; c < 3; ++c) {
         std::vector<float> a, b;
         for (std::size_t i = 0; i < chosen.size(); i += stride) {
-            a.push_back(reference.pixels()[chosen[i]].*channels[c]);
+            const float before = reference.pixels()[chosen[i]].*channels[c];
+            if (!(before > kDark)) continue;
+            a.push_back(before);
             b.push_back(image.pixels()[chosen[i]].*channels[c]);
+        }
+        // A black or overexposed backdrop has a few noisy pixels that seem fit to measure on.
+        if (a.size() < 16 || kLeastShare * double(a.size() * stride) < double(asked)) {
+            return std::nullopt;
         }
         gain[c] = channel_gain(a, b);
     }
-    return {gain[0], gain[1], gain[2]};
+    return Gain{gain[0], gain[1], gain[2]};
 }
 
 SrgbF apart_from(SrgbF v, const Gain& gain) {

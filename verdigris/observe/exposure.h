@@ -21,8 +21,10 @@ struct Gain {
 };
 
 /// Iteratively reweighted least squares with Tukey weights, so that what changed has no say.
-/// Only pixels in `where` (empty: all) that are not clipped in either picture. {1,1,1} if too few.
-Gain robust_gain(const Image<SrgbF>& reference, const Image<SrgbF>& image, const Mask& where);
+/// Only pixels in `where` (empty: all) that are neither clipped in one of the pictures nor too dark
+/// for a ratio; none if those are less than a twentieth of `where` or fewer than 16.
+std::optional<Gain> robust_gain(const Image<SrgbF>& reference, const Image<SrgbF>& image,
+                                const Mask& where);
 
 SrgbF apart_from(SrgbF value, const Gain& gain);  ///< value / gain, per channel
 

@@ -76,14 +76,6 @@ void measure_times(const std::vector<double>& times, Inspection& out) {
     out.duration_seconds = times.back() - times.front();
     out.median_step_seconds = median_of(steps);
     out.longest_step_seconds = *std::max_element(steps.begin(), steps.end());
-    const auto repeated = std::count(steps.begin(), steps.end(), 0.0);
-    if (repeated > 0 && out.duration_seconds > 0) {  // all the same: the axis says so
-        out.findings.push_back(
-            {"times_repeat", Severity::caution,
-             fmt::format("{} of {} frames {} the same time as the frame before: they count as "
-                         "one moment, and the clock of the recording may be too coarse or wrong",
-                         repeated, times.size(), repeated == 1 ? "carries" : "carry")});
-    }
     if (out.median_step_seconds > 0 &&
         out.longest_step_seconds > kUnevenSteps * out.median_step_seconds) {
         out.findings.push_back(

@@ -75,6 +75,9 @@ Json json_of(const SampleLayout& layout) {
 SampleLayout layout_from(const Json& j) {
     SampleLayout layout;
     FrameFormat& f = layout.format;
+    if (j.at("model") != "ycbcr") {
+        throw Error(ErrorCode::bad_input, "does not know how the samples are stored");
+    }
     f.model = PixelModel::yuv;
     f.type = SampleType::u16;
     f.bits = j.at("bits").get<int>();

@@ -95,8 +95,7 @@ Observation observation_from(const Json& j) {
         const auto name = n.at("severity").get<std::string>();
         const auto severity = severity_from(name);
         if (!severity) {
-            throw Error(ErrorCode::bad_input, "names the unknown severity '" + name + "'",
-                        "observation.json");
+            throw Error(ErrorCode::bad_input, "names the unknown severity '" + name + "'");
         }
         o.notes.push_back(
             {n.at("id").get<std::string>(), *severity, n.at("sentence").get<std::string>()});

@@ -225,9 +225,13 @@ Observation observe(const Recording& recording, const ObserveOptions& options,
     if (!sigma) {
         const Image<SrgbF> last = out.store->image(out.store->count() - 1);
         sigma = spatial_sigma(last, out.specimen);
-        out.notes.push_back({"noise_from_space", Severity::caution,
-                             "too few samples to measure the noise over time; it is estimated "
-                             "from the grain of the last one, where texture counts as noise"});
+        const bool few = out.samples.size() - std::size_t(interpolated) < 3;
+        out.notes.push_back(
+            {"noise_from_space", Severity::caution,
+             std::string(few ? "too few samples" : "nowhere three whole samples in a row") +
+                 " to measure the noise over time (black, saturated and interpolated ones do not "
+                 "count); it is estimated from the grain of the last one, where texture counts as "
+                 "noise"});
     }
     out.noise = noise_from(*sigma, options.tau);
     note_drift(measure_drift(scene.finding), out.notes);

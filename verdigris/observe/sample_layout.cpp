@@ -2,6 +2,7 @@
 #include "verdigris/observe/sample_layout.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "verdigris/error.h"
 #include "verdigris/observe/bin_accumulator.h"
@@ -57,8 +58,8 @@ void SampleLayout::check() const {
         (format.rotation == 0 || format.rotation == 90 || format.rotation == 180 ||
          format.rotation == 270) &&
         within(format.chroma_shift_x, 0, 2) && within(format.chroma_shift_y, 0, 2) &&
-        format.kr > 0 && format.kb > 0 && format.kr + format.kb < 1 && format.chroma_x >= 0 &&
-        format.chroma_x <= 4 && format.chroma_y >= 0 && format.chroma_y <= 4 &&
+        format.kr > 0 && format.kb > 0 && format.kr + format.kb < 1 &&
+        std::fabs(format.chroma_x) <= 4 && std::fabs(format.chroma_y) <= 4 &&
         within(shown.x, 0, kMost) && within(shown.y, 0, kMost) && within(shown.width, 1, kMost) &&
         within(shown.height, 1, kMost) && shown.x + shown.width <= (turned ? h : w) &&
         shown.y + shown.height <= (turned ? w : h) && coded == coded_rect(format, shown);

@@ -33,6 +33,7 @@ class Layouts : public ::testing::Test {
                                                  trial % 9 == 0 ? 16 : 8 + 2 * pick(0, 2));
         format.full_range = trial % 2;
         format.chroma_x = format.chroma_shift_x ? 0.5 * pick(0, 1) : 0;
+        if (format.chroma_shift_y) format.chroma_y = 0.5 * pick(-1, 2);  // -0.5: odd and mirrored
         format.rotation = 90 * pick(0, 3);
         format.transfer = trial % 11 == 0 ? Transfer::hlg : Transfer::display;
         return format;
@@ -125,6 +126,7 @@ TEST_F(Layouts, ThatMakeNoSenseAreRefused) {
         bad[key] = std::move(value);
         EXPECT_THROW(layout_from(bad), Error) << key << ": " << bad[key];
     };
+    refused("model", "banana");
     refused("bits", 0);
     refused("bits", 40);
     refused("fraction_bits", 9);
@@ -132,7 +134,7 @@ TEST_F(Layouts, ThatMakeNoSenseAreRefused) {
     refused("kb", 0.0);
     refused("chroma_shift", {3, 1});
     refused("chroma_shift", {0, 0});  // then other samples are needed than are stored
-    refused("chroma_site", {-1.0, 0.5});
+    refused("chroma_site", {-9.0, 0.5});
     refused("transfer", "gamma99");
     refused("primaries", "none");
     refused("frame", {0, 48});

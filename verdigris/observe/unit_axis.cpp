@@ -31,6 +31,26 @@ bool is_regular(const std::vector<double>& times) {
     return true;
 }
 
+// Frames with one stamp come from a clock too coarse to tell them apart (two photographs in an EXIF
+// second): they are spread evenly up to the next stamp. Returns how many repeat the one before.
+int spread_repeated(std::vector<double>& times) {
+    int repeated = 0;
+    double step = 0;
+    for (std::size_t begin = 0; begin < times.size();) {
+        std::size_t end = begin + 1;
+        while (end < times.size() && !(times[end] > times[begin])) ++end;
+        const double from = times[begin];
+        if (end < times.size()) step = times[end] - from;
+        const auto count = end - begin;
+        for (std::size_t i = 1; i < count; ++i) {
+            times[begin + i] = from + step * double(i) / double(count);
+        }
+        repeated += int(count) - 1;
+        begin = end;
+    }
+    return repeated;
+}
+
 }  // namespace
 
 AxisPlan plan_axis(const std::vector<double>& stamps, std::optional<double> units) {
@@ -41,6 +61,13 @@ AxisPlan plan_axis(const std::vector<double>& stamps, std::optional<double> unit
         for (int i = 0; i < frames; ++i) times[std::size_t(i)] = double(i);
         plan.notes.push_back({"times_equal", Severity::caution,
                               "all frames carry the same time; they are taken as evenly spaced"});
+    } else if (const int repeated = spread_repeated(times); repeated > 0) {
+        plan.notes.push_back({"times_repeat", Severity::caution,
+                              std::to_string(repeated) + " of " + std::to_string(frames) +
+                                  " frames " + (repeated == 1 ? "carries" : "carry") +
+                                  " the same time as the frame before; they are "
+                                  "spread evenly up to the next, as the clock of the recording "
+                                  "seems to be too coarse or wrong"});
     }
     const bool regular = is_regular(times);
     plan.step_seconds = regular ? 0 : median_step(times);
@@ -87,7 +114,7 @@ AxisPlan plan_axis(const std::vector<double>& stamps, std::optional<double> unit
         plan.bin_of_frame[std::size_t(i)] = bin;
         ++plan.frames_in_bin[std::size_t(bin)];
     }
-    if (!regular && plan.notes.empty()) {
+    if (!regular && (plan.notes.empty() || plan.notes.back().id == "times_repeat")) {
         plan.notes.push_back({"irregular_times", Severity::info,
                               "the frames are not evenly spaced in time; they are averaged on an "
                               "even grid"});

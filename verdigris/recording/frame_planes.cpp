@@ -73,6 +73,43 @@ void mirror(Plane& plane) {
     plane.stride_bytes = -plane.stride_bytes;
 }
 
+// Any other order of red, green and blue as R G B R G B ..., which is how all RGB is handed on.
+template <class T>
+void interleave(const AVFrame& frame, const AVPixFmtDescriptor& layout, const FrameFormat& format,
+                T* to) {
+    const int n = format.coded_width;
+    const bool swap = !native_order(layout, format);
+    std::vector<T> row(static_cast<std::size_t>(n));
+    for (int y = 0; y < format.coded_height; ++y, to += std::ptrdiff_t(3) * n) {
+        for (int c = 0; c < 3; ++c) {
+            const AVComponentDescriptor& component = layout.comp[c];
+            const std::uint8_t* in = frame.data[component.plane] +
+                                     std::ptrdiff_t(y) * frame.linesize[component.plane] +
+                                     component.offset;
+            gather_row(in, component, swap, n, row.data());
+            for (int x = 0; x < n; ++x) to[3 * x + c] = row[std::size_t(x)];
+        }
+    }
+}
+
+FramePlanes interleaved(const AVFrame& frame, const AVPixFmtDescriptor& layout,
+                        const FrameFormat& format) {
+    const std::ptrdiff_t stride = std::ptrdiff_t(3) * format.coded_width * sample_bytes(format);
+    const std::shared_ptr<std::byte[]> store(
+        new std::byte[std::size_t(stride) * std::size_t(format.coded_height)]);
+    if (format.type == SampleType::u16) {
+        interleave(frame, layout, format, reinterpret_cast<std::uint16_t*>(store.get()));
+    } else {
+        interleave(frame, layout, format, reinterpret_cast<std::uint8_t*>(store.get()));
+    }
+    FramePlanes out;
+    out.planes.count = 1;
+    out.planes.plane[0] = {store.get(),         stride, format.coded_width,
+                           format.coded_height, 3,      format.type};
+    out.owner = store;
+    return out;
+}
+
 Plane gathered(const AVFrame& frame, const AVPixFmtDescriptor& layout, int c,
                const FrameFormat& format, std::byte* to) {
     const AVComponentDescriptor& component = layout.comp[c];
@@ -112,6 +149,8 @@ FramePlanes planes_of_frame(libav::FramePtr frame, const FrameFormat& format, bo
     if (zero_copy && is_interleaved_rgb(layout, format)) {
         out.planes.count = 1;
         out.planes.plane[0] = in_place(0, 0, 3);
+    } else if (format.model == PixelModel::rgb) {
+        out = interleaved(*frame, layout, format);
     } else {
         out.planes.count = components;
         for (int c = 0; c < components; ++c) {

@@ -109,7 +109,7 @@ export class Bake {
     this.normalPass = pass(shaders.normalMap, { ...size, u_height: { value: this.height.texture },
       u_scale: { value: m.normal_scale * m.normal_gain / 8 } });
     this.ormPass = pass(shaders.ormMap, { ...frame, u_height: { value: this.height.texture },
-      u_low: { value: this.low.texture },
+      u_low: { value: this.low.texture }, u_zone: { value: specimen.zone },
       u_rough: { value: new THREE.Vector3(m.roughness_clean, m.roughness_patina, m.roughness_gamma) },
       u_metal: { value: new THREE.Vector3(m.metallic_clean, m.metallic_patina, m.metallic_gamma) },
       u_micro: { value: m.micro_roughness }, u_range: { value: m.micro_range } });

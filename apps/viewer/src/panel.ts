@@ -19,7 +19,7 @@ export function fillPanel(doc: ViewerDocument): void {
   const panel = document.getElementById("panel")!;
   add(panel, "h2", "Forecast");
   add(panel, "p", doc.forecaster.explanation);
-  add(panel, "p", `${doc.forecaster.name}, fitted on the last ${doc.context} observed frames, one unit apart.`, "quiet");
+  add(panel, "p", `${doc.forecaster.name}; its context is the last ${doc.context} observed frames, one unit apart.`, "quiet");
 
   if (doc.guards.length) add(panel, "h2", "Read this first");
   const list = doc.guards.length ? add(panel, "ul", "", "guards") : null;

@@ -20,7 +20,7 @@ float coverage_of(vec3 x, ivec2 at) {
   vec2 zone = texelFetch(u_zone, at, 0).rg;
   vec3 d = abs(x - texelFetch(u_canvas, at, 0).rgb);
   float p = clamp(((d.r + d.g + d.b) / 3.0 - zone.r) / u_normalizer, 0.0, 1.0);
-  return zone.g > 0.5 && p > 0.0 ? pow(p, u_exponent) : 0.0;
+  return zone.g > 0.75 && p > 0.0 ? pow(p, u_exponent) : 0.0;
 }
 `;
 
@@ -157,7 +157,7 @@ void main() { result = vec4(smoothed(ivec2(gl_FragCoord.xy), u_step), 0.0, 0.0, 
 
 /** Occlusion (none), roughness, metallic, height. */
 export const ormMap = `${header}
-uniform sampler2D u_frame, u_height, u_low;
+uniform sampler2D u_frame, u_height, u_low, u_zone;
 uniform vec3 u_rough, u_metal;    // clean, patina, gamma
 uniform float u_micro, u_range;
 out vec4 result;
@@ -165,9 +165,10 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   float p = texelFetch(u_frame, at, 0).a;
   float h = texelFetch(u_height, at, 0).r;
+  bool backdrop = texelFetch(u_zone, at, 0).g < 0.25;   // no metal
   float micro = clamp((h - texelFetch(u_low, at, 0).r) / u_range, -1.0, 1.0) * u_micro;
-  float grown = p > 0.0 ? pow(p, u_rough.z) : 0.0;
-  float bare = p < 1.0 ? pow(1.0 - p, u_metal.z) : 0.0;
+  float grown = backdrop ? 1.0 : p > 0.0 ? pow(p, u_rough.z) : 0.0;
+  float bare = backdrop ? 0.0 : p < 1.0 ? pow(1.0 - p, u_metal.z) : 0.0;
   float rough = clamp(u_rough.x + (u_rough.y - u_rough.x) * grown + micro, 0.04, 1.0);
   float metal = u_metal.y + (u_metal.x - u_metal.y) * bare;
   result = vec4(1.0, rough, metal, h);
