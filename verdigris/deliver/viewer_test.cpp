@@ -177,7 +177,7 @@ TEST(ViewerRecipe, LargePicturesShrinkAndMeanTheSameSurface) {
     EXPECT_EQ(document["height"], 256);
     EXPECT_EQ(document["material"]["height_sigma"], 0.5);
     EXPECT_EQ(document["material"]["micro_sigma"], 1.0);
-    EXPECT_EQ(document["material"]["normal_gain"], 4.0);
+    EXPECT_EQ(document["material"]["normal_gain"], 1.5);
     const std::vector<double> base = values_of(document, document["trajectory"]["base"]);
     const Image<SrgbF>& full = made.forecast.trajectory.base;
     const double average = (full(20, 10).r + full(21, 10).r + full(20, 11).r + full(21, 11).r) / 4;

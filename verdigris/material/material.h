@@ -29,7 +29,7 @@ struct MaterialOptions {
     double micro_sigma = 2.0;   ///< low-pass of the high-pass, pixels. chosen
     double micro_range = 0.04;  ///< high-pass amplitude that counts as full. chosen
     double normal_scale = 2.6;  ///< the paper's gradient scale
-    double normal_gain = 8;     ///< 8: plain Sobel; 1: gradient per pixel. chosen: the model
+    double normal_gain = 3;     ///< 8: plain Sobel; 1: gradient per pixel. chosen: see the model
     /// Where the 99th percentile is taken, in units. 0: at twice the context length, the horizon
     /// up to which the guards trust a forecast. Fixed per specimen, so that coverage grows
     /// smoothly with the age. chosen.
