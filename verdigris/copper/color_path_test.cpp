@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <numbers>
+#include <string>
 
 #include "verdigris/copper/patina.h"
 #include "verdigris/copper/testing.h"
@@ -95,6 +97,36 @@ TEST(ColorPath, ChannelsTurnAtDifferentThicknesses) {
     EXPECT_NEAR(minimum(1.0, b), 16, 2.5);
     EXPECT_NEAR(minimum(1.0, g), 20, 2.5);
     EXPECT_NEAR(minimum(1.0, r), 31, 2.5);
+}
+
+TEST(ColorPath, SourcesOfCopperDifferByThisMuch) {
+    const std::filesystem::path shared = std::filesystem::path(VERDIGRIS_SHARED_DATA) / "optical";
+    if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no " << shared;
+    const LinearF ours = linear_from_reflectance(surface_reflectance({}));
+    for (const char* file : {"nk_Cu_Johnson.csv", "nk_Cu_SOPRA.csv"}) {
+        SurfaceOptics optics;
+        optics.materials.metal = read_optical_constants(shared / file);
+        const LinearF other = linear_from_reflectance(surface_reflectance({}, optics));
+        measured((std::string(file) + ", red against ours").c_str(), double(other.r / ours.r));
+        measured((std::string(file) + ", green against ours").c_str(), double(other.g / ours.g));
+        measured((std::string(file) + ", blue against ours").c_str(), double(other.b / ours.b));
+        const double difference = delta_e2000(lab_of(ours), lab_of(other));
+        measured((std::string(file) + ", CIEDE2000 against ours").c_str(), difference);
+        EXPECT_LT(difference, 10);
+    }
+}
+
+TEST(ColorPath, DefaultGrowthChangesTheColorAsMuchAsThePaperPrints) {
+    const auto shown = [](double nm) {
+        return encoded_from_linear(
+            linear_from_reflectance(surface_reflectance({nm, cu2o_fraction(nm), 0})));
+    };
+    const double end = GrowthLaw().grow(4, 98.4);
+    const SrgbF a = shown(4), b = shown(end);
+    const double change = (std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b)) / 3;
+    measured("film after a recording that starts at 4 nm, in nm", end);
+    measured("mean change of its encoded color", change);
+    EXPECT_TRUE(change > 0.12 && change < 0.13) << change;  // [Paper]: 0.128 and 0.119
 }
 
 TEST(ColorPath, BareCopperNeedsTheExposure) {

@@ -127,7 +127,7 @@ ColorTable::ColorTable(const SurfaceOptics& optics, const ColorTableOptions& opt
     demand_in_range(options.fractions, 2, 129, "fractions");
     thicknesses_ = int(std::ceil(options.most_nm / options.step_nm)) + 1;
     fractions_ = options.fractions;
-    per_nm_ = float(1 / options.step_nm);
+    per_nm_ = 1 / options.step_nm;
     patina_ = linear_from_reflectance(patina_spectrum(), options.observer);
     nodes_.resize(std::size_t(thicknesses_) * std::size_t(fractions_));
     const LinearF brown = linear_from_reflectance(brown_spectrum(), options.observer);
@@ -147,12 +147,10 @@ ColorTable::ColorTable(const SurfaceOptics& optics, const ColorTableOptions& opt
 
 LinearF ColorTable::at(const SurfaceState& state) const {
     // max(0, x) with the constant first: NaN becomes 0.
-    const float x =
-        std::min(std::max(0.0f, float(state.film_nm) * per_nm_), float(thicknesses_ - 1));
-    const float y =
-        std::min(std::max(0.0f, float(state.cu2o_fraction)), 1.0f) * float(fractions_ - 1);
+    const double x = std::min(std::max(0.0, state.film_nm * per_nm_), double(thicknesses_ - 1));
+    const double y = std::min(std::max(0.0, state.cu2o_fraction), 1.0) * (fractions_ - 1);
     const int i = std::min(int(x), thicknesses_ - 2), j = std::min(int(y), fractions_ - 2);
-    const float u = x - float(i), v = y - float(j);
+    const float u = float(x - i), v = float(y - j);
     const LinearF* near = &nodes_[std::size_t(i) * std::size_t(fractions_) + std::size_t(j)];
     const LinearF* far = near + fractions_;
     const float a = (1 - u) * (1 - v), b = (1 - u) * v, c = u * (1 - v), d = u * v;

@@ -23,7 +23,7 @@ struct ColorTableOptions {
 /// 0.001 in linear RGB and 0.1 CIEDE2000 at most (color_table_test.cpp).
 class ColorTable {
   public:
-    /// ~0.1 s on two cores and 1.6 MB with the defaults. Throws as check(SurfaceOptics), and
+    /// ~0.2 s on two cores and 1.6 MB with the defaults. Throws as check(SurfaceOptics), and
     /// Error{usage} for options out of range.
     explicit ColorTable(const SurfaceOptics& optics = {}, const ColorTableOptions& options = {});
 
@@ -37,7 +37,7 @@ class ColorTable {
 
   private:
     int thicknesses_ = 0, fractions_ = 0;
-    float per_nm_ = 0;
+    double per_nm_ = 0;
     LinearF patina_;
     std::vector<LinearF> nodes_;  // [thickness][fraction]
 };

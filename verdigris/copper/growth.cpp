@@ -15,6 +15,7 @@ GrowthLaw::GrowthLaw(const GrowthOptions& options) : options_(options) {
     cubic_rate_ = 1.5 * kParabolicFromNm * options.parabolic_rate;
     rate_at_border_ = cubic_rate_ / (3 * kCubicFromNm * kCubicFromNm);
     inverse_rate_ = rate_at_border_ * std::exp(-options.inverse_nm / kCubicFromNm);
+    inverse_border_ = inverse_clock(kCubicFromNm);
 }
 
 double GrowthLaw::rate(double nm) const {
@@ -40,17 +41,20 @@ double GrowthLaw::grow_thin(double nm, double exposure) const {
         return nm +
                options_.logarithmic_nm * std::log1p(rate(nm) * exposure / options_.logarithmic_nm);
     }
-    // No closed inverse: Newton's method on the closed clock, kept inside a bracket that shrinks.
+    // No closed inverse: Newton's method, kept inside a bracket that shrinks. The logarithm of the
+    // clock is nearly a straight line in 1/L, so it is solved for there: four rounds as a rule.
     const double target = inverse_clock(nm) + exposure;
+    if (target >= inverse_border_) return kCubicFromNm;
     // The rate only falls, so keeping its first value overshoots: a close bound for short steps.
-    // The clock is convex, so Newton comes down from there without leaving the bracket.
     double low = nm, high = std::min(kCubicFromNm, nm + rate(nm) * exposure), guess = high;
     for (int i = 0; i < 200; ++i) {
-        const double miss = inverse_clock(guess) - target;
-        (miss > 0 ? high : low) = guess;
-        double next = guess - miss * rate(guess);
+        const double clock = inverse_clock(guess);
+        (clock > target ? high : low) = guess;
+        const double slope = rate(guess) * clock / (guess * guess);
+        double next = 1 / (1 / guess + std::log(clock / target) * slope);
+        // Before the bracket is asked: at the root rounding may carry `next` across its end.
+        if (std::abs(next - guess) <= 1e-14 * guess) return next;
         if (!(next > low && next < high)) next = (low + high) / 2;
-        if (std::abs(next - guess) <= 1e-15 * kCubicFromNm) return next;
         guess = next;
     }
     return guess;
@@ -59,12 +63,10 @@ double GrowthLaw::grow_thin(double nm, double exposure) const {
 double GrowthLaw::grow(double nm, double exposure) const {
     if (!(exposure > 0) || !(nm >= 0)) return nm;
     if (nm < kCubicFromNm) {
-        const double needed = exposure_between(nm, kCubicFromNm);
-        if (exposure < needed) {
-            return std::clamp(grow_thin(nm, exposure), nm, kCubicFromNm);
-        }
+        const double end = grow_thin(nm, exposure);
+        if (end < kCubicFromNm) return std::max(nm, end);
+        exposure = std::max(0.0, exposure - exposure_between(nm, kCubicFromNm));
         nm = kCubicFromNm;
-        exposure -= needed;
     }
     if (nm < kParabolicFromNm) {
         const double needed = exposure_between(nm, kParabolicFromNm);
@@ -89,7 +91,8 @@ double GrowthLaw::exposure_between(double from, double to) const {
             exposure += options_.logarithmic_nm / rate(from) *
                         std::expm1((end - from) / options_.logarithmic_nm);
         } else {
-            exposure += inverse_clock(end) - inverse_clock(from);
+            exposure +=
+                (end == kCubicFromNm ? inverse_border_ : inverse_clock(end)) - inverse_clock(from);
         }
         from = end;
     }

@@ -11,9 +11,10 @@ enum class ThinFilmLaw {
 };
 
 struct GrowthOptions {
-    /// k_p in nm^2 per unit of exposure, (0, 1e6]. derived: 0.34 takes a film from 4 to 11 nm in
-    /// the 98.4 units of a recording, which is the change of color that [Paper] prints.
-    double parabolic_rate = 0.34;
+    /// k_p in nm^2 per unit of exposure, (0, 1e6]. derived: 0.3 takes a film from 4 to 10.6 nm in
+    /// the 98.4 units of a recording, which changes the mean color by the 0.12 to 0.13 that [Paper]
+    /// prints (color_path_test.cpp).
+    double parabolic_rate = 0.3;
     ThinFilmLaw thin_film{ThinFilmLaw::direct_logarithmic};
     /// Length of the direct logarithmic law in nm, [0.1, 10]. chosen.
     double logarithmic_nm = 1.5;
@@ -40,7 +41,7 @@ class GrowthLaw {
 
     /// Thickness in nm of a film of `nm` >= 0 after `exposure` >= 0 units. Never less than `nm`.
     /// NaN, or an exposure below 0, leaves the film as it is. ~30 ns (inverse logarithmic below
-    /// 5 nm: ~1 us).
+    /// 5 nm: ~1.5 us).
     double grow(double nm, double exposure) const;
 
     /// Units of exposure that take a film from `from` to `to` nm, 0 <= from <= to: the inverse of
@@ -51,12 +52,14 @@ class GrowthLaw {
 
   private:
     double inverse_clock(double nm) const;  // exposure from 0 to nm <= 5 by Cabrera and Mott
+    /// grow by the law below 5 nm; 5 or more if the film gets beyond it meanwhile.
     double grow_thin(double nm, double exposure) const;
 
     GrowthOptions options_;
     double cubic_rate_ = 0;      // k_3 in nm^3 per unit: L^3 grows by k_3 per unit
     double rate_at_border_ = 0;  // at 5 nm
     double inverse_rate_ = 0;    // u in nm per unit
+    double inverse_border_ = 0;  // inverse_clock at 5 nm
 };
 
 }  // namespace verdigris

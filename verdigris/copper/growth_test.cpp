@@ -166,10 +166,6 @@ TEST(Growth, NothingHappensWithoutExposure) {
     EXPECT_TRUE(std::isnan(law.grow(nan, 1)));
 }
 
-TEST(Growth, DefaultRateIsThePrintedChange) {
-    EXPECT_NEAR(GrowthLaw().grow(4, 98.4), 11, 0.1);
-}
-
 TEST(Growth, RefusesRatesOutOfRange) {
     GrowthOptions options;
     options.parabolic_rate = -1;

@@ -33,8 +33,8 @@ class OpticalConstants {
     std::vector<Row> rows_;
 };
 
-/// Copper, evaporated, 380 to 780 nm every 10 nm [McPeak2015]. Other measurements differ by about
-/// 10 % in reflectance (15 % in the red): that is the uncertainty of the model.
+/// Copper, evaporated, 380 to 780 nm every 10 nm [McPeak2015]. Other measurements of copper give
+/// other colors (docs/models/copper.md says by how much): that is the uncertainty of the model.
 const OpticalConstants& copper_constants();
 /// Cu2O, cuprite, the red oxide next to the metal, 380 to 780 nm [Palik1991].
 const OpticalConstants& cuprous_oxide_constants();
