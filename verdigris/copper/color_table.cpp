@@ -121,7 +121,7 @@ std::vector<std::array<double, 3>> film_colors(const SurfaceOptics& optics, doub
 }  // namespace
 
 ColorTable::ColorTable(const SurfaceOptics& optics, const ColorTableOptions& options) {
-    check(optics);
+    check_optics(optics);
     demand_in_range(options.most_nm, 1e-6, 5000, "most_nm");
     demand_in_range(options.step_nm, 0.05, 5, "step_nm");
     demand_in_range(options.fractions, 2, 129, "fractions");

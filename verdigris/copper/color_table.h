@@ -23,7 +23,7 @@ struct ColorTableOptions {
 /// 0.001 in linear RGB and 0.1 CIEDE2000 at most (color_table_test.cpp).
 class ColorTable {
   public:
-    /// ~0.2 s on two cores and 1.6 MB with the defaults. Throws as check(SurfaceOptics), and
+    /// ~0.2 s on two cores and 1.6 MB with the defaults. Throws as check_optics(), and
     /// Error{usage} for options out of range.
     explicit ColorTable(const SurfaceOptics& optics = {}, const ColorTableOptions& options = {});
 

@@ -31,7 +31,7 @@ Spectrum per_band(F of_nm) {
 
 }  // namespace
 
-void check(const SurfaceOptics& optics) {
+void check_optics(const SurfaceOptics& optics) {
     // At 0.3 the outermost node still has 0.14 of the mean thickness; from 0.35 on it would be < 0.
     demand_in_range(optics.thickness_spread, 0, 0.3, "thickness_spread");
     demand_in_range(optics.roughness_factor, 1, 5, "roughness_factor");
@@ -88,7 +88,7 @@ UnitFilm unit_film(const SurfaceOptics& optics, double cu2o_fraction, double wav
 }
 
 Spectrum surface_reflectance(const SurfaceState& state, const SurfaceOptics& optics) {
-    check(optics);
+    check_optics(optics);
     check(state);
     const auto nodes = thickness_nodes(optics.thickness_spread);
     const double seen_nm = state.film_nm / optics.roughness_factor;

@@ -44,11 +44,11 @@ struct SurfaceOptics {
 
 /// Throws Error{usage} naming the field and the allowed range, Error{bad_input} if a table does not
 /// cover the visible range. Called by everything that takes SurfaceOptics.
-void check(const SurfaceOptics& optics);
+void check_optics(const SurfaceOptics& optics);
 
 /// Spectral reflectance of one state: the mean of the film's reflectance over its thickness, the
-/// brown limit, the green layer. In [0, 1] per band. Throws as check(), and Error{usage} on a state
-/// out of range. ~20 us: for a picture, use ColorTable. Source: docs/models/copper.md.
+/// brown limit, the green layer. In [0, 1] per band. Throws as check_optics(), and Error{usage} on
+/// a state out of range. ~20 us: for a picture, use ColorTable. Source: docs/models/copper.md.
 Spectrum surface_reflectance(const SurfaceState& state, const SurfaceOptics& optics = {});
 
 /// Share of the brown crust for a film of this thickness, [0, 1): 1 - exp(-(L / 300 nm)^2).

@@ -103,7 +103,7 @@ std::complex<double> normal_wave_number(std::complex<double> index, double angle
     if (angle == 0) return index;
     const double sine = std::sin(angle);
     const Complex q = std::sqrt(index * index - sine * sine);
-    return q.imag() < 0 ? -q : q;
+    return q.imag() < 0 ? -q : q;  // only a k of -0.0 makes the principal root a growing wave
 }
 
 std::complex<double> tilted_admittance(std::complex<double> index, std::complex<double> q,

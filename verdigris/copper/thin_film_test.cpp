@@ -149,6 +149,16 @@ TEST(ThinFilm, SplittingAFilmChangesNothing) {
     }
 }
 
+TEST(ThinFilm, ANegativeZeroOfAbsorptionIsNoGain) {
+    // Beyond the critical angle the wave must die away below; -0.0 would pick the other root.
+    const FilmLayer plus{{0.5, 0.0}, 80}, minus{{0.5, -0.0}, 80};
+    for (auto method : {airy_reflectance, transfer_matrix_reflectance}) {
+        const double r = method(550, {&plus, 1}, {0.2, 3}, {1.3, Polarization::unpolarized});
+        EXPECT_EQ(method(550, {&minus, 1}, {0.2, 3}, {1.3, Polarization::unpolarized}), r);
+    }
+    EXPECT_GE(normal_wave_number({0.5, -0.0}, 1.3).imag(), 0.5);
+}
+
 TEST(ThinFilm, RefusesWhatIsNoFilm) {
     const auto refused = [](double nm, FilmLayer film, Complex metal, double angle) {
         for (auto method : {airy_reflectance, transfer_matrix_reflectance}) {
