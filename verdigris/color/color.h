@@ -3,4 +3,5 @@
 #pragma once
 
 #include "verdigris/color/convert.h"
+#include "verdigris/color/delta_e.h"
 #include "verdigris/color/pixel_types.h"
