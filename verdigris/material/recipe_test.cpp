@@ -136,8 +136,10 @@ TEST(Glint, RaisesNoBump) {
         }
     }
     const Forecast forecast = straight_forecast(context, {-0.002f, 0.001f, 0.001f});
-    const MaterialRecipe filled = prepare_material(context, forecast);
-    MaterialRecipe bare = prepare_material(context, forecast);
+    MaterialOptions options;
+    options.normal_gain = 8;  // the plain Sobel: any ridge shows at its steepest
+    const MaterialRecipe filled = prepare_material(context, forecast, options);
+    MaterialRecipe bare = prepare_material(context, forecast, options);
     for (float& v : bare.luma_fill.pixels()) v = -1;
     Material with, without;
     materialize(filled, forecast, 5, with);
@@ -149,7 +151,7 @@ TEST(Glint, RaisesNoBump) {
             steepest_without = std::min(steepest_without, double(without.normal(x, y).z));
         }
     }
-    EXPECT_LT(steepest_without, 0.85);
+    EXPECT_LT(steepest_without, 0.7);
     EXPECT_GT(steepest_with, 0.999);
 }
 
