@@ -21,6 +21,7 @@ constexpr const char* kFooter =
     "  verdigris age plate.mp4 -o out          # the whole job, from footage to materials\n"
     "  verdigris age photos/ -o out --horizons 10,20 --forecaster affinergb\n"
     "  verdigris inspect plate.mp4             # is this recording fit for a forecast?\n"
+    "  verdigris simulate -o specimen.mp4      # no footage? a made specimen whose truth is known\n"
     "\n"
     "Exit status: 0 done, 1 failed (disk, permission), 2 usage, 3 bad input, 4 refused (--force\n"
     "overrides), 130 interrupted. Horizons are accelerated units, fractions of the observed\n"
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {
     cli::add_materialize(app, session);
     cli::add_deliver(app, session);
     cli::add_view(app, session);
+    cli::add_simulate(app, session);
     cli::add_doctor(app, session);
     try {
         app.parse(argc, argv);

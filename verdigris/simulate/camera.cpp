@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/simulate/camera.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
 #include "verdigris/color/convert.h"
 #include "verdigris/pixels/parallel_rows.h"
+#include "verdigris/simulate/camera_row.h"
 #include "verdigris/simulate/random.h"
 
 namespace verdigris {
@@ -43,30 +43,26 @@ void Camera::rows(const Image<LinearF>& before, const Image<LinearF>& after, dou
     const std::size_t samples = std::size_t(width) * 3;
     const Random offsets(spec_.seed, RandomStream::noise_offset);
     const double phase = Random(spec_.seed, RandomStream::flicker).uniform(std::uint64_t(index));
-    const float shot = float(shot_), read = float(read_variance_), mix = float(t);
-    const bool noisy = shot > 0 || read > 0;
-    parallel_rows(height, 16, [&](RowRun run) {
-        std::vector<float> line(samples), gain(samples);
+    std::vector<float> gain(samples);
+    for (std::size_t i = 0; i < samples; ++i) gain[i] = float(gains.linear[i % 3]);
+    parallel_rows(height, 32, [&](RowRun run) {
+        std::vector<std::int32_t> line(samples);
         for (int y = run.begin; y < run.end; ++y) {
-            const double band = 1 + spec_.camera.flicker *
-                                        std::sin(2 * std::numbers::pi *
-                                                 (spec_.camera.flicker_bands * y / height + phase));
-            for (std::size_t i = 0; i < samples; ++i) gain[i] = float(gains.linear[i % 3] * band);
-            const float* a = &before.row(y)->r;
-            const float* b = &after.row(y)->r;
-            const std::uint64_t row =
+            const double turns = spec_.camera.flicker_bands * y / height + phase;
+            const std::uint64_t place =
                 std::uint64_t(index) * std::uint64_t(height) + std::uint64_t(y);
-            const float* noise = tile_.data() + offsets.bits(row) % (kTile - samples);
-            if (noisy) {
-                for (std::size_t i = 0; i < samples; ++i) {
-                    const float v = (a[i] + mix * (b[i] - a[i])) * gain[i];
-                    line[i] = v + std::sqrt(shot * v + read) * noise[i];
-                }
-            } else {
-                for (std::size_t i = 0; i < samples; ++i)
-                    line[i] = (a[i] + mix * (b[i] - a[i])) * gain[i];
-            }
-            encode(y, line);
+            encode(
+                y,
+                {.before = &before.row(y)->r,
+                 .after = &after.row(y)->r,
+                 .gain = gain.data(),
+                 .noise = tile_.data() + offsets.bits(place) % (kTile - samples),
+                 .samples = samples,
+                 .mix = float(t),
+                 .band = float(1 + spec_.camera.flicker * std::sin(2 * std::numbers::pi * turns)),
+                 .shot = float(shot_),
+                 .read = float(read_variance_)},
+                line);
         }
     });
 }
@@ -89,29 +85,32 @@ void Camera::expose(const Image<LinearF>& before, const Image<LinearF>& after, d
             codes[c][i] = u8_from_unit(curve[i] * gain + offset);
     }
     const std::uint8_t *red = codes[0].data(), *green = codes[1].data(), *blue = codes[2].data();
-    rows(before, after, t, gains, index, [&](int y, std::vector<float>& line) {
-        for (float& v : line)  // apart from the look-up, so that it vectorizes
-            v = std::min(std::max(v, 0.0f), 1.0f) * (kLevels - 1) + 0.5f;
-        SrgbU8* out = frame.row(y);
-        for (std::size_t x = 0, i = 0; i < line.size(); ++x, i += 3)
-            out[x] = {red[int(line[i])], green[int(line[i + 1])], blue[int(line[i + 2])]};
-    });
+    rows(before, after, t, gains, index,
+         [&](int y, const CameraRow& row, std::vector<std::int32_t>& line) {
+             expose_row_levels(row, kLevels, line.data());
+             SrgbU8* out = frame.row(y);
+             const std::int32_t* level = line.data();
+             for (int x = 0; x < frame.width(); ++x, level += 3)
+                 out[x] = {red[level[0]], green[level[1]], blue[level[2]]};
+         });
 }
 
 void Camera::expose(const Image<LinearF>& before, const Image<LinearF>& after, double t,
                     const FrameGains& gains, int index, Image<SrgbU16>& frame) const {
     if (!frame.same_size(before))
         frame = Image<SrgbU16>::for_overwrite(before.width(), before.height());
-    rows(before, after, t, gains, index, [&](int y, std::vector<float>& line) {
-        SrgbU16* out = frame.row(y);
-        const auto code = [&](float v, std::size_t c) {
-            return u16_from_unit(srgb_from_linear(std::clamp(v, 0.0f, 1.0f)) *
-                                     float(gains.encoded_gain[c]) +
-                                 float(gains.encoded_offset[c]));
-        };
-        for (std::size_t x = 0, i = 0; i < line.size(); ++x, i += 3)
-            out[x] = {code(line[i], 0), code(line[i + 1], 1), code(line[i + 2], 2)};
-    });
+    rows(before, after, t, gains, index,
+         [&](int y, const CameraRow& row, std::vector<std::int32_t>&) {
+             std::vector<float> line(row.samples);
+             expose_row(row, line.data());
+             SrgbU16* out = frame.row(y);
+             const auto code = [&](float v, std::size_t c) {
+                 return u16_from_unit(srgb_from_linear(v) * float(gains.encoded_gain[c]) +
+                                      float(gains.encoded_offset[c]));
+             };
+             for (std::size_t x = 0, i = 0; i < line.size(); ++x, i += 3)
+                 out[x] = {code(line[i], 0), code(line[i + 1], 1), code(line[i + 2], 2)};
+         });
 }
 
 }  // namespace verdigris

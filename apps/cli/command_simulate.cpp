@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// A made recording of copper whose truth is known: for whoever has no footage, and for research.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include "commands.h"
+#include "verdigris/error.h"
+#include "verdigris/files/atomic_file.h"
+#include "verdigris/recording/recording_writer.h"
+#include "verdigris/simulate/simulate.h"
+#include "verdigris/simulate/spec_file.h"
+#include "verdigris/simulate/truth.h"
+
+namespace verdigris::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct Arguments {
+    std::string preset = "chamber", spec, output, truth, size;
+    std::optional<std::uint64_t> seed;
+    std::optional<int> frames;
+    bool full = false, print_spec = false;
+};
+
+SimulationSpec spec_of(const Arguments& a) {
+    SimulationSpec spec = a.spec.empty() ? preset_spec(a.preset) : read_spec(a.spec, "uniform");
+    if (a.full) spec = full_size(spec);
+    if (a.seed) spec.seed = *a.seed;
+    if (a.frames) spec.frames.count = *a.frames;
+    if (!a.size.empty()) {
+        int width = 0, height = 0;
+        char end = 0;
+        if (std::sscanf(a.size.c_str(), "%dx%d%c", &width, &height, &end) != 2) {
+            throw Error(ErrorCode::usage, fmt::format("--size is '{}'; give it as WIDTHxHEIGHT, "
+                                                      "for example 640x360",
+                                                      a.size));
+        }
+        spec.frames.width = width;
+        spec.frames.height = height;
+    }
+    check_spec(spec);
+    return spec;
+}
+
+/// specimen.mp4 -> specimen.spec.toml, frames/ -> frames.spec.toml: beside the recording, never in
+/// it, where it would be one more file among photographs.
+fs::path spec_path(const fs::path& output) {
+    fs::path path = output;
+    if (!path.has_filename()) path = path.parent_path();
+    const bool video = path.extension() == ".mp4" || path.extension() == ".mkv";
+    path.replace_filename((video ? path.stem() : path.filename()).string() + ".spec.toml");
+    return path;
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    std::error_code error;
+    return fs::equivalent(a, b, error) && !error;
+}
+
+void refuse_if_there(const fs::path& path, bool force) {
+    std::error_code error;
+    if (force || !fs::exists(path, error)) return;
+    throw Error(ErrorCode::refused, "is there already; --force replaces it", path.string());
+}
+
+void check_truth_folder(const fs::path& truth, bool force) {
+    std::error_code error;
+    if (force || !fs::exists(truth, error) || fs::is_empty(truth, error)) return;
+    throw Error(ErrorCode::refused, "is there already and holds files; --force writes into it",
+                truth.string());
+}
+
+Json gains_summary(const SimulationResult& result) {
+    double least = 1e9, most = 0;
+    for (const FrameGains& g : result.gains) {
+        const double mean = (g.linear[0] + g.linear[1] + g.linear[2]) / 3;
+        least = std::min(least, mean), most = std::max(most, mean);
+    }
+    return {{"least", least}, {"most", most}};
+}
+
+void run(Session& session, const Arguments& a) {
+    const SimulationSpec spec = spec_of(a);
+    if (a.print_spec) {
+        if (session.json)
+            session.result({{"spec", spec_text(spec)}});
+        else
+            session.say(spec_text(spec));
+        return;
+    }
+    if (a.output.empty()) {
+        throw Error(ErrorCode::usage,
+                    "give the recording a name: -o specimen.mp4, specimen.mkv (lossless) or a "
+                    "folder");
+    }
+    const fs::path output = a.output, resolved = spec_path(output);
+    const bool own_spec = !a.spec.empty() && same_file(a.spec, resolved);
+    if (!own_spec) refuse_if_there(resolved, session.force);
+    if (!a.truth.empty()) check_truth_folder(a.truth, session.force);
+    const auto writer = write_recording(output, {.width = spec.frames.width,
+                                                 .height = spec.frames.height,
+                                                 .fps = spec.frames.fps,
+                                                 .bits = spec.camera.bits,
+                                                 .replace = session.force});
+    std::optional<TruthWriter> truth;
+    if (!a.truth.empty()) truth.emplace(spec, a.truth);
+
+    const SimulationResult result =
+        simulate(spec,
+                 {.frame8 = [&](int, ImageView<const SrgbU8> frame) { writer->add(frame); },
+                  .frame16 = [&](int, ImageView<const SrgbU16> frame) { writer->add(frame); },
+                  .state =
+                      [&](const Specimen& specimen) {
+                          if (truth) truth->add(specimen);
+                      }},
+                 session.progress());
+    writer->commit();
+    if (truth) truth->commit(result, output.filename().string());
+    if (!own_spec) write_file(resolved, spec_text(spec));
+
+    session.say(fmt::format("simulated {} frames of {}x{}, {:g} units, preset {}, seed {}",
+                            spec.frames.count, spec.frames.width, spec.frames.height,
+                            spec.frames.units, spec.preset, spec.seed));
+    session.say(fmt::format("Look at   {}", output.string()));
+    session.say(fmt::format("Change    {}   (every number of it; run it with --spec)",
+                            (own_spec ? fs::path(a.spec) : resolved).string()));
+    if (truth)
+        session.say(fmt::format("Truth     {}", (fs::path(a.truth) / "truth.json").string()));
+    session.say(fmt::format("Try next  verdigris age {}", output.string()));
+    session.result({{"simulated", true},
+                    {"recording", output.string()},
+                    {"spec", (own_spec ? fs::path(a.spec) : resolved).string()},
+                    {"truth", a.truth.empty() ? Json(nullptr) : Json(a.truth)},
+                    {"preset", spec.preset},
+                    {"seed", spec.seed},
+                    {"frames", spec.frames.count},
+                    {"width", spec.frames.width},
+                    {"height", spec.frames.height},
+                    {"units", spec.frames.units},
+                    {"camera_gain", gains_summary(result)},
+                    {"seconds",
+                     {{"specimen", result.seconds_specimen},
+                      {"camera", result.seconds_camera},
+                      {"writing", result.seconds_sinks}}}});
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, Session& session) {
+    auto a = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand(
+        "simulate", "Make a recording of copper that corrodes, and the truth about it");
+    CLI::Option* preset = command->add_option(
+        "--preset", a->preset, fmt::format("{} ({})", fmt::join(preset_names(), ", "), a->preset));
+    command->add_option("--spec", a->spec, "A specimen of your own (TOML; start with --print-spec)")
+        ->excludes(preset);
+    command->add_option("-o,--out", a->output,
+                        "specimen.mp4, specimen.mkv (lossless), or a folder of PNGs");
+    command->add_option("--truth", a->truth, "Folder for what a recording cannot show");
+    command->add_option("--seed", a->seed, "Another specimen on another day (0)")
+        ->check(CLI::Range(std::uint64_t(0), std::uint64_t(1) << 53));
+    command->add_flag("--full", a->full,
+                      "As the paper's cameras recorded it: 1080p60 for 601 s, or 720x1280");
+    command->add_option("--size", a->size, "Frames of WIDTHxHEIGHT");
+    command->add_option("--frames", a->frames, "Frames in all (984: one per sample)");
+    command->add_flag("--print-spec", a->print_spec, "Print every number and stop");
+    command->add_flag("--force", session.force, "Replace what is there");
+    session.add_options(*command);
+    command->callback([a, &session] { session.action = [a](Session& s) { run(s, *a); }; });
+}
+
+}  // namespace verdigris::cli
