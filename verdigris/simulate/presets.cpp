@@ -24,12 +24,12 @@ SimulationSpec chamber() {
     s.scene.glint_size = 0.35;
     s.susceptibility.spread = 0.3;
     s.susceptibility.edge = 0.35;
-    s.oxide.initial_nm = 0.8;
-    s.oxide.growth.parabolic_rate = 0.28;
+    s.oxide.initial_nm = 0.52;  // tuned
+    s.oxide.growth.parabolic_rate = 0.257;  // tuned
     s.oxide.chemistry.fresh = 0.6;
     s.camera.jitter = 0.002;
-    s.camera.light_drift = 0.002;
-    s.camera.white_balance = 0.001;
+    s.camera.light_drift = 0.0016;  // tuned
+    s.camera.white_balance = 0.0007;
     s.camera.shot_noise = 1e-6;
     s.camera.read_noise = 0.0006;
     s.camera.flicker = 0.001;
@@ -57,18 +57,18 @@ SimulationSpec air() {
     s.susceptibility.spread = 0.4;
     s.susceptibility.coarse = 0.3;
     s.susceptibility.drip = 0.25;
-    s.oxide.initial_nm = 4;
-    s.oxide.growth.parabolic_rate = 0.53;
+    s.oxide.initial_nm = 7.5;  // tuned
+    s.oxide.growth.parabolic_rate = 0.765;  // tuned
     s.oxide.chemistry.fresh = 0.6;
     s.environment.noise = 0.3;
     s.environment.diurnal = 0.2;
-    s.camera.auto_exposure = 0.3;
+    s.camera.auto_exposure = 0.33;  // tuned
     s.camera.auto_exposure_lag = 2;
-    s.camera.light_drift = 0.03;
+    s.camera.light_drift = 0.039;  // tuned
     s.camera.white_balance = 0.004;
     s.camera.jitter = 0.006;
-    s.camera.shot_noise = 5e-6;
-    s.camera.read_noise = 0.0021;
+    s.camera.shot_noise = 4.1e-6;  // tuned
+    s.camera.read_noise = 0.0019;  // tuned
     return s;
 }
 
