@@ -27,8 +27,11 @@ cmp -s "$scratch/a.spec.toml" "$scratch/b.spec.toml" || fail "the resolved spec 
 [ -s "$scratch/frames.spec.toml" ] || fail "the spec is not beside the folder"
 "$verdigris" inspect "$scratch/frames" --json >"$scratch/f.json" 2>/dev/null || fail "frames/ does not open"
 "$verdigris" inspect "$scratch/d.mkv" --json >"$scratch/d.json" 2>/dev/null || fail "d.mkv does not open"
+# (frames are picked by time, and Matroska rounds times to milliseconds: alike, not equal)
 for key in specimen_change noise_sigma; do
-  [ "$(grep "\"$key\"" "$scratch/f.json")" = "$(grep "\"$key\"" "$scratch/d.json")" ] ||
+  value() { sed -n "s/.*\"$key\": \([0-9.e-]*\).*/\1/p" "$1"; }
+  awk -v a="$(value "$scratch/f.json")" -v b="$(value "$scratch/d.json")" \
+    'BEGIN { exit !(a > 0 && b > 0 && a / b < 1.1 && b / a < 1.1) }' ||
     fail "$key differs between the folder and the lossless video"
 done
 

@@ -14,11 +14,14 @@ namespace verdigris {
 namespace {
 
 constexpr double kTukey = 4.685;  // 95 % efficiency under a Gaussian [Holland1977]
-constexpr double kSigmaOverMad = 1.4826;
-constexpr int kIterations = 5;            // chosen: the weights settle in three
-constexpr std::size_t kMaxPixels = 5000;  // chosen: of 1 % noise, the gain is exact to 2e-4
-constexpr double kLeastShare = 20;        // chosen: a twentieth must be fit to measure on
-constexpr float kDark = 0.03f;            // chosen: below 8 of 255 a ratio is mostly noise
+// chosen: a third of the pixels has to agree. A specimen that fills more than half of the frame and
+// changes unevenly then does not pass for the light.
+constexpr std::size_t kAgree = 3;
+constexpr double kSigmaOverThird = 1 / 0.430727;  // derived: a third of a Gaussian lies within this
+constexpr int kIterations = 5;                    // chosen: the weights settle in three
+constexpr std::size_t kMaxPixels = 5000;          // chosen: of 1 % noise, the gain is exact to 2e-4
+constexpr double kLeastShare = 20;                // chosen: a twentieth must be fit to measure on
+constexpr float kDark = 0.03f;                    // chosen: below 8 of 255 a ratio is mostly noise
 
 double median_of(std::vector<float>& values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -26,17 +29,31 @@ double median_of(std::vector<float>& values) {
     return double(*middle);
 }
 
+// The middle of the shortest interval that holds a third of the values: where most of them agree
+// best, which need not be where their median is.
+double shortest_third(std::vector<float>& values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t third = std::max<std::size_t>(values.size() / kAgree, 1);
+    std::size_t best = 0;
+    for (std::size_t i = 0; i + third < values.size(); ++i) {
+        if (values[i + third] - values[i] < values[best + third] - values[best]) best = i;
+    }
+    return double(values[best + third / 2]);
+}
+
 double channel_gain(const std::vector<float>& reference, const std::vector<float>& image) {
     std::vector<float> scratch;
     for (std::size_t i = 0; i < image.size(); ++i) scratch.push_back(image[i] / reference[i]);
-    double gain = median_of(scratch);
+    double gain = shortest_third(scratch);
     for (int iteration = 0; iteration < kIterations; ++iteration) {
         scratch.clear();
         for (std::size_t i = 0; i < image.size(); ++i) {
             scratch.push_back(float(std::fabs(double(image[i]) - gain * double(reference[i]))));
         }
+        const auto third = scratch.begin() + std::ptrdiff_t(scratch.size() / kAgree);
+        std::nth_element(scratch.begin(), third, scratch.end());
         // An eighth of an 8-bit step keeps the scale positive on pictures without noise.
-        const double scale = std::max(kSigmaOverMad * median_of(scratch), 5e-4);
+        const double scale = std::max(kSigmaOverThird * double(*third), 5e-4);
         double over = 0, under = 0;
         for (std::size_t i = 0; i < image.size(); ++i) {
             const double r = double(reference[i]);

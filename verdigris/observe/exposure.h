@@ -20,7 +20,8 @@ struct Gain {
     double level() const { return (r + g + b) / 3; }
 };
 
-/// Iteratively reweighted least squares with Tukey weights, so that what changed has no say.
+/// Iteratively reweighted least squares with Tukey weights, started where a third of the pixels
+/// agrees best, so that what changed has no say.
 /// Only pixels in `where` (empty: all) that are neither clipped in one of the pictures nor too dark
 /// for a ratio; none if those are less than a twentieth of `where` or fewer than 16.
 std::optional<Gain> robust_gain(const Image<SrgbF>& reference, const Image<SrgbF>& image,

@@ -83,8 +83,8 @@ SimulationSpec uniform() {
     s.oxide.chemistry.fresh = 0.5;
     s.oxide.thickness_spread = 0.15;
     s.camera.jitter = 0.002;
-    s.camera.shot_noise = 2e-6;
-    s.camera.read_noise = 0.001;
+    s.camera.shot_noise = 6e-6;  // half a code and a little: what a phone leaves after binning
+    s.camera.read_noise = 0.0015;
     return s;
 }
 
