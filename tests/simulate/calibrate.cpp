@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Measures the presets `chamber` and `air` against what the paper prints, as Markdown:
-//   calibrate measure [SEEDS]   the table of docs/models/simulate.md
-//   calibrate search [SEEDS]    looks for the tuned numbers of presets.cpp
+//   calibrate measure SEEDS   the table of docs/models/simulate.md
+//   calibrate search SEEDS    looks for the tuned numbers of presets.cpp
 // Everything is measured on what a user would have: the frames, through observe(). Only the masks
 // of specimen and reference are the simulator's own.
 #include <fmt/format.h>
@@ -225,6 +225,6 @@ int main(int argc, char** argv) {
     const int seeds = argc > 2 ? std::max(1, std::atoi(argv[2])) : 5;
     if (what == "measure") return print_table(seeds), 0;
     if (what == "search") return search(seeds), 0;
-    std::fprintf(stderr, "usage: calibrate measure|search [SEEDS]\n");
+    std::fprintf(stderr, "usage: calibrate measure|search [seeds]\n");
     return 2;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Draws docs/images/simulated_presets.png: every preset at eight ages.
-//   draw_presets OUT.png [SEED]
+//   draw_presets OUT.png SEED (7 if left out)
 #include <cairo.h>
 #include <fmt/format.h>
 
@@ -59,7 +59,7 @@ void draw_text(cairo_t* context, double x, double y, const std::string& text, do
 
 int main(int argc, char** argv) {
     if (argc < 2 || argc > 3) {
-        std::fprintf(stderr, "usage: draw_presets OUT.png [SEED]\n");
+        std::fprintf(stderr, "usage: draw_presets OUT.png [seed]\n");
         return 2;
     }
     const int rows = int(preset_names().size());

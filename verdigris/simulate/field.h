@@ -29,8 +29,8 @@ class GaussianField {
     std::vector<Wave> waves_;
 };
 
-/// Square cells over a specimen of width x height, in sides (1 is its shorter side). The last column
-/// and row may reach over its rim.
+/// Square cells over a specimen of width x height, in sides (1 is its shorter side). The last
+/// column and row may reach over its rim.
 struct CellGrid {
     int columns = 0, rows = 0;
     double cell = 0;  ///< side of a cell

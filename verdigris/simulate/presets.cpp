@@ -24,7 +24,7 @@ SimulationSpec chamber() {
     s.scene.glint_size = 0.35;
     s.susceptibility.spread = 0.3;
     s.susceptibility.edge = 0.35;
-    s.oxide.initial_nm = 0.52;  // tuned
+    s.oxide.initial_nm = 0.52;              // tuned
     s.oxide.growth.parabolic_rate = 0.257;  // tuned
     s.oxide.chemistry.fresh = 0.6;
     s.camera.jitter = 0.002;
@@ -57,7 +57,7 @@ SimulationSpec air() {
     s.susceptibility.spread = 0.4;
     s.susceptibility.coarse = 0.3;
     s.susceptibility.drip = 0.25;
-    s.oxide.initial_nm = 7.5;  // tuned
+    s.oxide.initial_nm = 7.5;               // tuned
     s.oxide.growth.parabolic_rate = 0.765;  // tuned
     s.oxide.chemistry.fresh = 0.6;
     s.environment.noise = 0.3;
