@@ -41,6 +41,10 @@ struct EvaluationProtocol {
     EvaluatedArea area{EvaluatedArea::frame};
     int max_windows = 0;  ///< evenly spaced among all; 0: all of them
 
+    bool delta_e = true;        ///< also CIEDE2000: half of the cost of an evaluation
+    bool out_of_gamut = false;  ///< also the share of pixels that leave [0, 1]
+    bool hash_frames = true;    ///< so that the audit sees a frame that is used twice
+
     int bootstrap_draws = 10000;
     std::uint64_t seed = 0;
     bool single = false;  ///< one recording, training-free forecasters only: labeled as such

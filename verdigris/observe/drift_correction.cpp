@@ -8,6 +8,7 @@
 #include "verdigris/color/convert.h"
 #include "verdigris/error.h"
 #include "verdigris/observe/noise.h"
+#include "verdigris/observe/with_samples.h"
 #include "verdigris/pixels/parallel_rows.h"
 
 namespace verdigris {
@@ -277,19 +278,10 @@ std::shared_ptr<const SampleStore> corrected_samples(std::shared_ptr<const Sampl
 
 Observation corrected_observation(const Observation& observation, const DriftSeries& series,
                                   DriftCorrection correction) {
-    Observation out;
-    out.source_name = observation.source_name;
-    out.source_sha256 = observation.source_sha256;
-    out.axis = observation.axis;
-    out.samples = observation.samples;
-    out.specimen = observation.specimen.clone();
-    out.clipped = observation.clipped.clone();
-    out.noise = observation.noise;
-    out.crop = observation.crop;
-    out.decode = observation.decode;
-    out.notes = observation.notes;
-    out.store = corrected_samples(observation.store,
-                                  correction_maps(series, correction, observation.noise.sigma));
+    Observation out = with_samples(
+        observation,
+        corrected_samples(observation.store,
+                          correction_maps(series, correction, observation.noise.sigma)));
     NoiseMeter meter(out.width(), out.height());
     if (!out.specimen.empty()) meter.only_inside(out.specimen.clone());
     for (int i = 0; i < out.store->count(); ++i) meter.add(i, out.store->image(i));
