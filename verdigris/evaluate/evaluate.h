@@ -22,6 +22,7 @@ namespace verdigris {
 struct TrainingSource {
     std::string name;
     /// Its samples note which of them are read, and the audit compares that with the two ranges.
+    /// Lives until `train` returns.
     const Observation* observation = nullptr;
     SampleRange train, validation;
 };
