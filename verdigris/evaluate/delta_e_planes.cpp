@@ -61,9 +61,10 @@ namespace verdigris {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Encoded in [0, 1] to linear.
+/// Encoded to linear, as a screen shows it: limited to [0, 1].
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V linear_of(D d, V v, const float* power) {
+HWY_INLINE V linear_of(D d, V encoded, const float* power) {
+    const V v = hn::Min(hn::Max(encoded, hn::Zero(d)), hn::Set(d, 1.0f));
     const V u = hn::Mul(hn::Sub(v, hn::Set(d, float(CurveSeries::kCenter))),
                         hn::Set(d, float(1 / CurveSeries::kHalf)));
     V sum = hn::Set(d, power[kDegree]);
@@ -245,10 +246,6 @@ HWY_EXPORT(sum_difference);
 
 constexpr std::size_t kPad = 64;  // chosen: no target has more lanes of float
 
-float shown(float v) {
-    return v > 0 ? std::min(v, 1.0f) : 0.0f;
-}
-
 }  // namespace
 
 void lab_of_pixels(const Image<SrgbF>& image, std::span<const std::uint32_t> where,
@@ -260,9 +257,9 @@ void lab_of_pixels(const Image<SrgbF>& image, std::span<const std::uint32_t> whe
     const auto pixels = image.pixels();
     for (std::size_t i = 0; i < where.size(); ++i) {
         const SrgbF c = pixels[where[i]];
-        out.l[i] = shown(c.r);
-        out.a[i] = shown(c.g);
-        out.b[i] = shown(c.b);
+        out.l[i] = c.r;
+        out.a[i] = c.g;
+        out.b[i] = c.b;
     }
     for (auto* plane : {&out.l, &out.a, &out.b}) {
         std::fill(plane->begin() + std::ptrdiff_t(where.size()), plane->end(), 0.5f);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "verdigris/error.h"
@@ -24,6 +25,27 @@ double share_outside(const Image<SrgbF>& frame, const PixelWeights& area, double
         count += area.weight[i] != 0 && outside(frame.pixels()[i], float(slack));
     }
     return area.count > 0 ? double(count) / double(area.count) : 0;
+}
+
+/// Forecasts the last frame at every horizon, as order 0 of any family does.
+bool holds(const Forecast& forecast, const Context& context) {
+    const Trajectory& t = forecast.trajectory;
+    const Image<SrgbF>& last = context.frames.back();
+    return forecast.is_trajectory() && t.law.order == 0 && t.base.same_size(last) &&
+           std::memcmp(t.base.row(0), last.row(0), last.byte_count()) == 0;
+}
+
+void copy_row(const EntrantScores& from, int row, EntrantScores& to) {
+    const auto copy = [row](const ErrorTable& a, ErrorTable& b) {
+        for (int k = 0; !a.empty() && k < a.horizons; ++k) b.at(row, k) = a.at(row, k);
+    };
+    copy(from.foreground, to.foreground);
+    copy(from.specimen, to.specimen);
+    copy(from.absolute, to.absolute);
+    copy(from.delta_e, to.delta_e);
+    for (std::size_t c = 0; c < 3; ++c) copy(from.bias[c], to.bias[c]);
+    copy(from.outside, to.outside);
+    copy(from.outside_by_a_step, to.outside_by_a_step);
 }
 
 /// Frame at horizon h: in place where the forecast already holds it, else made in `made`.
@@ -108,7 +130,11 @@ std::int64_t WindowScorer::score(int start, int row, const std::vector<Forecaste
     }
     for (std::size_t i = 0; i < forecasters.size(); ++i) {
         const Forecast forecast = forecasters[i].forecast(scratch.context);
-        score_one(forecast, start, row, scores[i], scratch);
+        if (i > 0 && holds(forecast, scratch.context)) {
+            copy_row(scores.front(), row, scores[i]);  // persistence again, to the bit
+        } else {
+            score_one(forecast, start, row, scores[i], scratch);
+        }
     }
     return least;
 }

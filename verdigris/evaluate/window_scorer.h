@@ -44,7 +44,7 @@ class WindowScorer {
 
     /// The context of the window that starts at sample `start`, into scratch.context.
     void context_of(int start, WindowScratch& scratch) const;
-    /// Scores `forecasters` into row `row` of their tables, which are large enough. Returns the
+    /// Scores `forecasters`, persistence first, into row `row` of their tables. Returns the
     /// foreground's pixels, the least of its masks; if below the protocol's minimum, nothing else
     /// was done.
     std::int64_t score(int start, int row, const std::vector<Forecaster>& forecasters,
