@@ -176,13 +176,19 @@ HWY_INLINE V difference(D d, V l1, V a1, V b1, V l2, V a2, V b2) {
     const V su = hn::Add(u1, u2), sv = hn::Add(v1, v2), s = length(su, sv);
     const V is = hn::Div(one, hn::Max(s, tiny));
     const V c = hn::Mul(su, is), sn = hn::Mul(sv, is);
-    // 2 sqrt(C1 C2) sin(step / 2). Up to 90 degrees from the cross product, which keeps its digits
-    // for equal hues; beyond from the difference of the unit vectors, which keeps them for
-    // opposite ones.
-    const V cross = hn::MulSub(a1, hn::Sub(b2, b1), hn::Mul(b1, hn::Sub(a2, a1)));
+    // 2 sqrt(C1 C2) sin(step / 2). Up to 90 degrees from the cross product (of colors that are near
+    // each other, by their difference), which keeps its digits for equal hues; beyond from the
+    // difference of the unit vectors, which keeps them for opposite ones.
+    const V da = hn::Sub(a2, a1), db = hn::Sub(b2, b1);
+    const auto near = hn::Lt(hn::Add(hn::Abs(da), hn::Abs(db)), c1);
+    const V cross = hn::IfThenElse(near, hn::MulSub(a1, db, hn::Mul(b1, da)),
+                                   hn::MulSub(a1, b2, hn::Mul(b1, a2)));
     const V dot = hn::MulAdd(u1, u2, hn::Mul(v1, v2));
     const V root = hn::Sqrt(hn::Mul(c1, c2));
-    const V small = hn::Div(hn::Add(cross, cross), hn::Max(hn::Mul(root, s), tiny));
+    // Next to gray the cross product is rounding; no sine is above 1, though.
+    const V most = hn::Add(root, root);
+    const V small = hn::Clamp(hn::Div(hn::Add(cross, cross), hn::Max(hn::Mul(root, s), tiny)),
+                              hn::Neg(most), most);
     const V wide = hn::CopySign(hn::Mul(root, length(hn::Sub(u1, u2), hn::Sub(v1, v2))), cross);
     const V dh = hn::IfThenElse(hn::Lt(dot, zero), wide, small);
 

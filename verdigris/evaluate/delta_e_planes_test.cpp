@@ -81,6 +81,21 @@ TEST(DeltaEPlanes, GraysAndOppositeHuesAreRight) {
     EXPECT_EQ(fast({50, 0, 0}, {50, 0, 0}), 0);
 }
 
+TEST(DeltaEPlanes, NextToGrayNothingBlowsUp) {
+    // Found on real frames: an 8-bit gray has a chroma of 1e-6 or of 0, and a cross product of
+    // rounding alone.
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> l(0, 100), ab(-30, 30);
+    for (const float chroma : {0.0f, 1e-12f, 1e-9f, 1e-6f, 1e-4f, 1e-2f}) {
+        for (int i = 0; i < 5000; ++i) {
+            const Lab p{l(random), ab(random), ab(random)};
+            const Lab q{p.l + 0.1f, chroma * ab(random), chroma * ab(random)};
+            EXPECT_NEAR(fast(p, q), delta_e2000(p, q), 2e-3) << chroma;
+            EXPECT_NEAR(fast(q, p), delta_e2000(q, p), 2e-3) << chroma;
+        }
+    }
+}
+
 TEST(DeltaEPlanes, TheMeanCountsEveryPixelOnce) {
     std::vector<Lab> p, q;
     double sum = 0;
