@@ -208,6 +208,10 @@ WindowRatios difference_ratios(const Direction& direction, const EntrantScores& 
     return paired(direction, first, second);
 }
 
+BootstrapOptions bootstrap_options(const EvaluationProtocol& protocol) {
+    return {protocol.bootstrap_draws, protocol.seed, 0.95, protocol.span()};
+}
+
 double ratio(const WindowRatios& r) {
     Sums sum;
     for (const Sums& s : one_by_one(r)) sum += s;

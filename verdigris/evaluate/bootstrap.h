@@ -40,6 +40,9 @@ struct BootstrapOptions {
     int block = 140;         ///< samples per block: one window's span
 };
 
+/// As the protocol says: its draws and seed, blocks of one span.
+BootstrapOptions bootstrap_options(const EvaluationProtocol& protocol);
+
 struct Interval {
     double low = 0, high = 0;
 };

@@ -69,6 +69,7 @@ TEST(Bootstrap, ThePapers810WindowsAreSixBlocks) {
     ASSERT_EQ(blocks.size(), 6u);
     for (std::size_t b = 0; b < 5; ++b) EXPECT_EQ(blocks[b].windows, 140);
     EXPECT_EQ(blocks[5].windows, 110);
+    EXPECT_EQ(bootstrap_options({}).block, 140);
     EXPECT_EQ(blocks[5].first_start, 717);
     EXPECT_EQ(blocks[5].last_start, 826);
     EXPECT_NEAR(blocks[3].value, 0.1, 1e-12);
