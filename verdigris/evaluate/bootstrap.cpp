@@ -128,7 +128,7 @@ std::vector<Weighted> all_multisets(const std::vector<Sums>& blocks) {
 /// sums[i]: of the windows among the first i starts of the axis.
 std::vector<Sums> running_sums(const WindowRatios& r) {
     const int first = r.starts.front();
-    std::vector<Sums> sums(std::size_t(r.starts.back() - first + 2));
+    std::vector<Sums> sums(std::size_t(r.starts.back()) - std::size_t(first) + 2);
     for (std::size_t i = 0; i < r.starts.size(); ++i) {
         sums[std::size_t(r.starts[i] - first + 1)] = {r.over[i], r.under[i], 1};
     }

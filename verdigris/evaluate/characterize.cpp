@@ -41,7 +41,7 @@ constexpr AffineFamily kFamilies[] = {AffineFamily::full, AffineFamily::per_chan
 /// One evaluation and the rows it fills.
 class Sweep {
   public:
-    explicit Sweep(EvaluationProtocol protocol) : protocol_(std::move(protocol)) {}
+    explicit Sweep(const EvaluationProtocol& protocol) : protocol_(protocol) {}
 
     void add(std::string block, std::string setting, bool usual, const AffineOptions& options) {
         const std::string name =

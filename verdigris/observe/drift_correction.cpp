@@ -196,7 +196,7 @@ DriftSeries measure_drift_series(const SampleStore& samples, const Mask& specime
         report(progress, "drift", begin, n);
         const int end = std::min(begin + kSamplesAtOnce, n);
         parallel_for(end - begin, [&](int k) {
-            const auto t = std::size_t(begin + k);
+            const auto t = std::size_t(begin) + std::size_t(k);
             const Image<SrgbF> image = samples.image(begin + k);
             held[t] = gather(image, where);
             for (std::size_t c = 0; c < 3; ++c) {
