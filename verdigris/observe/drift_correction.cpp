@@ -8,6 +8,7 @@
 #include "verdigris/color/convert.h"
 #include "verdigris/error.h"
 #include "verdigris/observe/noise.h"
+#include "verdigris/observe/with_samples.h"
 #include "verdigris/pixels/parallel_rows.h"
 
 namespace verdigris {
@@ -195,7 +196,7 @@ DriftSeries measure_drift_series(const SampleStore& samples, const Mask& specime
         report(progress, "drift", begin, n);
         const int end = std::min(begin + kSamplesAtOnce, n);
         parallel_for(end - begin, [&](int k) {
-            const auto t = std::size_t(begin + k);
+            const auto t = std::size_t(begin) + std::size_t(k);
             const Image<SrgbF> image = samples.image(begin + k);
             held[t] = gather(image, where);
             for (std::size_t c = 0; c < 3; ++c) {
@@ -277,19 +278,10 @@ std::shared_ptr<const SampleStore> corrected_samples(std::shared_ptr<const Sampl
 
 Observation corrected_observation(const Observation& observation, const DriftSeries& series,
                                   DriftCorrection correction) {
-    Observation out;
-    out.source_name = observation.source_name;
-    out.source_sha256 = observation.source_sha256;
-    out.axis = observation.axis;
-    out.samples = observation.samples;
-    out.specimen = observation.specimen.clone();
-    out.clipped = observation.clipped.clone();
-    out.noise = observation.noise;
-    out.crop = observation.crop;
-    out.decode = observation.decode;
-    out.notes = observation.notes;
-    out.store = corrected_samples(observation.store,
-                                  correction_maps(series, correction, observation.noise.sigma));
+    Observation out = with_samples(
+        observation,
+        corrected_samples(observation.store,
+                          correction_maps(series, correction, observation.noise.sigma)));
     NoiseMeter meter(out.width(), out.height());
     if (!out.specimen.empty()) meter.only_inside(out.specimen.clone());
     for (int i = 0; i < out.store->count(); ++i) meter.add(i, out.store->image(i));
