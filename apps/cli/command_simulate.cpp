@@ -3,15 +3,21 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <regex>
 #include <system_error>
+#include <vector>
 
 #include "commands.h"
+#include "stages.h"
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/recording/recording_writer.h"
+#include "verdigris/simulate/effort.h"
 #include "verdigris/simulate/simulate.h"
 #include "verdigris/simulate/spec_file.h"
 #include "verdigris/simulate/truth.h"
@@ -32,20 +38,20 @@ struct Arguments {
 };
 
 SimulationSpec spec_of(const Arguments& a) {
-    SimulationSpec spec = a.spec.empty() ? preset_spec(a.preset) : read_spec(a.spec, "uniform");
+    SimulationSpec spec = a.spec.empty() ? preset_spec(a.preset) : read_spec(a.spec, a.preset);
     if (a.full) spec = full_size(spec);
     if (a.seed) spec.seed = *a.seed;
     if (a.frames) spec.frames.count = *a.frames;
     if (!a.size.empty()) {
-        int width = 0, height = 0;
-        char end = 0;
-        if (std::sscanf(a.size.c_str(), "%dx%d%c", &width, &height, &end) != 2) {
+        static const std::regex kSize("([0-9]{1,5})x([0-9]{1,5})");
+        std::smatch match;
+        if (!std::regex_match(a.size, match, kSize)) {
             throw Error(ErrorCode::usage, fmt::format("--size is '{}'; give it as WIDTHxHEIGHT, "
                                                       "for example 640x360",
                                                       a.size));
         }
-        spec.frames.width = width;
-        spec.frames.height = height;
+        spec.frames.width = std::stoi(match[1]);
+        spec.frames.height = std::stoi(match[2]);
     }
     check_spec(spec);
     return spec;
@@ -56,20 +62,60 @@ SimulationSpec spec_of(const Arguments& a) {
 fs::path spec_path(const fs::path& output) {
     fs::path path = output;
     if (!path.has_filename()) path = path.parent_path();
-    const bool video = path.extension() == ".mp4" || path.extension() == ".mkv";
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    const bool video = ending == ".mp4" || ending == ".mkv";
     path.replace_filename((video ? path.stem() : path.filename()).string() + ".spec.toml");
     return path;
 }
 
-bool same_file(const fs::path& a, const fs::path& b) {
-    std::error_code error;
-    return fs::equivalent(a, b, error) && !error;
+/// The same folder, or one in the other. Both may not exist yet.
+bool overlap(const fs::path& a, const fs::path& b) {
+    const fs::path p = fs::weakly_canonical(fs::absolute(a) / "");
+    const fs::path q = fs::weakly_canonical(fs::absolute(b) / "");
+    const auto parts = [](const fs::path& path) {
+        std::vector<fs::path> list;
+        for (const fs::path& part : path)
+            if (!part.empty()) list.push_back(part);
+        return list;
+    };
+    const auto x = parts(p), y = parts(q);
+    return std::mismatch(x.begin(), x.begin() + std::ptrdiff_t(std::min(x.size(), y.size())),
+                         y.begin())
+               .first == x.begin() + std::ptrdiff_t(std::min(x.size(), y.size()));
 }
 
-void refuse_if_there(const fs::path& path, bool force) {
+/// Whether the resolved spec must be written: not if the file there says the same already, in
+/// whatever words.
+bool spec_is_new(const fs::path& path, const SimulationSpec& spec, bool force) {
     std::error_code error;
-    if (force || !fs::exists(path, error)) return;
-    throw Error(ErrorCode::refused, "is there already; --force replaces it", path.string());
+    if (!fs::exists(path, error)) return true;
+    try {
+        if (spec_text(read_spec(path, spec.preset)) == spec_text(spec)) return false;
+    } catch (const Error&) {
+        // Not a spec at all: somebody's file.
+    }
+    if (force && !fs::is_directory(path, error)) return true;
+    throw Error(ErrorCode::refused,
+                "is there already and says something else than this run's spec, which is written "
+                "there; give the recording another name, or --force replaces it",
+                path.string());
+}
+
+void check_effort(Session& session, const SimulationSpec& spec) {
+    const Effort effort = estimated_effort(spec);
+    constexpr double kLongHours = 2, kMuchMemory = 2;  // chosen: --full takes one; a small machine
+    if (effort.hours > kLongHours && !session.force) {
+        throw Error(ErrorCode::refused,
+                    fmt::format("this would take about {:.0f} hours of a core, mostly for {}; "
+                                "--force goes on",
+                                effort.hours, effort.mostly));
+    }
+    if (effort.gigabytes > kMuchMemory) {
+        session.tell({"much_memory", Severity::info,
+                      fmt::format("this takes about {:.0f} GB of memory", effort.gigabytes)});
+    }
 }
 
 void check_truth_folder(const fs::path& truth, bool force) {
@@ -103,9 +149,16 @@ void run(Session& session, const Arguments& a) {
                     "folder");
     }
     const fs::path output = a.output, resolved = spec_path(output);
-    const bool own_spec = !a.spec.empty() && same_file(a.spec, resolved);
-    if (!own_spec) refuse_if_there(resolved, session.force);
-    if (!a.truth.empty()) check_truth_folder(a.truth, session.force);
+    const bool new_spec = spec_is_new(resolved, spec, session.force);
+    if (!a.truth.empty()) {
+        check_truth_folder(a.truth, session.force);
+        if (overlap(a.truth, output)) {
+            throw Error(ErrorCode::usage, fmt::format("the truth ({}) cannot lie in the recording, "
+                                                      "nor the recording in the truth",
+                                                      a.truth));
+        }
+    }
+    check_effort(session, spec);
     const auto writer = write_recording(output, {.width = spec.frames.width,
                                                  .height = spec.frames.height,
                                                  .fps = spec.frames.fps,
@@ -124,22 +177,23 @@ void run(Session& session, const Arguments& a) {
                           if (truth) truth->add(specimen);
                       }},
                  session.progress());
+    // The recording last: whoever sees it sees the rest.
+    if (new_spec) write_file(resolved, spec_text(spec));
+    if (truth) truth->commit(result, input_name(output));
     writer->commit();
-    if (truth) truth->commit(result, output.filename().string());
-    if (!own_spec) write_file(resolved, spec_text(spec));
 
     session.say(fmt::format("simulated {} frames of {}x{}, {:g} units, preset {}, seed {}",
                             spec.frames.count, spec.frames.width, spec.frames.height,
                             spec.frames.units, spec.preset, spec.seed));
     session.say(fmt::format("Look at   {}", output.string()));
-    session.say(fmt::format("Change    {}   (every number of it; run it with --spec)",
-                            (own_spec ? fs::path(a.spec) : resolved).string()));
+    session.say(
+        fmt::format("Change    {}   (every number of it; run it with --spec)", resolved.string()));
     if (truth)
         session.say(fmt::format("Truth     {}", (fs::path(a.truth) / "truth.json").string()));
     session.say(fmt::format("Try next  verdigris age {}", output.string()));
     session.result({{"simulated", true},
                     {"recording", output.string()},
-                    {"spec", (own_spec ? fs::path(a.spec) : resolved).string()},
+                    {"spec", resolved.string()},
                     {"truth", a.truth.empty() ? Json(nullptr) : Json(a.truth)},
                     {"preset", spec.preset},
                     {"seed", spec.seed},

@@ -54,6 +54,18 @@ expect 4 "mine" "$verdigris" simulate "${small[@]}" -o "$scratch/mine"
 "$verdigris" simulate "${small[@]}" --seed 8 -o "$scratch/a.mp4" --force --quiet || fail "--force did not replace"
 cmp -s "$scratch/a.mp4" "$scratch/c.mp4" || fail "--force left the old recording"
 
+# A spec beside the recording always says what made it: an override is not written over in silence.
+"$verdigris" simulate "${small[@]}" -o "$scratch/own.mp4" --quiet
+expect 4 "own\.spec\.toml.*else" "$verdigris" simulate --spec "$scratch/own.spec.toml" --seed 5 -o "$scratch/own.mp4"
+"$verdigris" simulate --spec "$scratch/own.spec.toml" --seed 5 -o "$scratch/own.mp4" --force --quiet || fail "own.mp4 with --force"
+grep -q '^seed = 5' "$scratch/own.spec.toml" || fail "the spec beside the recording is not what made it"
+"$verdigris" simulate --spec "$scratch/own.spec.toml" -o "$scratch/own.mkv" --quiet || fail "the same spec for two recordings"
+expect 2 "truth" "$verdigris" simulate "${small[@]}" -o "$scratch/both" --truth "$scratch/both/truth"
+expect 2 "truth" "$verdigris" simulate "${small[@]}" -o "$scratch/both/" --truth "$scratch/both"
+expect_nothing "$scratch/both"
+printf 'grid = 1024\n[frames]\nunits = 500\n[nucleation]\ndiffusion = 0.01\ninitial = 0\n' >"$scratch/long.toml"
+expect 4 "hours.*diffusion" "$verdigris" simulate --spec "$scratch/long.toml" -o "$scratch/long.mp4"
+
 # Bad input: one sentence with the key, the line and the range; nothing is left.
 bad() { # bad STATUS PATTERN SPEC-TEXT
   printf '%b' "$3" >"$scratch/bad.toml"

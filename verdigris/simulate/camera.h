@@ -15,10 +15,15 @@ namespace verdigris {
 
 /// What multiplied and shifted one frame: the truth about its color.
 struct FrameGains {
-    double unit = 0;                 ///< when it was taken
-    std::array<double, 3> linear{};  ///< all that multiplies linear light: R, G, B
-    double exposure = 1;             ///< of it, what the automatic exposure decided
-    double light = 1;                ///< of it, what the light did (drift and jitter)
+    double unit = 0;                         ///< when it was taken
+    std::array<double, 3> linear{};          ///< all that multiplies linear light: R, G, B
+    double exposure = 1;                     ///< of it, what the automatic exposure decided
+    double light = 1;                        ///< of it, what the light did slowly
+    double jitter = 1;                       ///< of it, what the light did from sample to sample
+    std::array<double, 3> balance{1, 1, 1};  ///< of it, the color balance
+    /// Of the bands, turns: row y of H is also multiplied by 1 + flicker sin(2 pi (bands y / H +
+    /// phase)).
+    double flicker_phase = 0;
     std::array<double, 3> encoded_gain{1, 1, 1}, encoded_offset{0, 0, 0};  ///< affine drift
 };
 
@@ -31,8 +36,8 @@ class CameraTrack {
     void see(double mean_luminance);
     /// Nodes seen so far.
     int nodes() const { return int(exposure_log_.size()); }
-    /// At `unit`, which must not lie beyond the last node seen.
-    FrameGains gains(double unit) const;
+    /// Of a frame at `unit`, which must not lie beyond the last node seen.
+    FrameGains gains(double unit, int frame = 0) const;
 
     static constexpr double kNodeUnits = 0.1;
 

@@ -18,7 +18,8 @@ hn::Vec<D> exposed(D d, const CameraRow& row, std::size_t i) {
     const auto gain = hn::Mul(hn::LoadU(d, row.gain + i), hn::Set(d, row.band));
     const auto light = hn::Add(before, hn::Mul(hn::Set(d, row.mix), hn::Sub(after, before)));
     const auto v = hn::Mul(light, gain);
-    const auto variance = hn::Add(hn::Mul(hn::Set(d, row.shot), v), hn::Set(d, row.read));
+    const auto variance =
+        hn::Max(hn::Add(hn::Mul(hn::Set(d, row.shot), v), hn::Set(d, row.read)), hn::Zero(d));
     const auto noisy = hn::Add(v, hn::Mul(hn::Sqrt(variance), hn::LoadU(d, row.noise + i)));
     return hn::Min(hn::Max(noisy, hn::Zero(d)), hn::Set(d, 1.0f));
 }

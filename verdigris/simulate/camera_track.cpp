@@ -55,7 +55,7 @@ void CameraTrack::see(double mean_luminance) {
     state_ += -std::expm1(-kNodeUnits / c.auto_exposure_lag) * (wanted - state_);
 }
 
-FrameGains CameraTrack::gains(double unit) const {
+FrameGains CameraTrack::gains(double unit, int frame) const {
     const CameraSpec& c = spec_.camera;
     const double at = unit / kNodeUnits;
     FrameGains g;
@@ -63,10 +63,13 @@ FrameGains CameraTrack::gains(double unit) const {
     g.exposure = std::exp(between(exposure_log_, at));
     // Jitter holds for a sample: independent from one to the next, however many frames it has.
     const std::size_t sample = std::min(std::size_t(std::max(at, 0.0) + 1e-9), jitter_.size() - 1);
-    g.light = std::exp(between(light_, at) + jitter_[sample]);
+    g.light = std::exp(between(light_, at));
+    g.jitter = std::exp(jitter_[sample]);
+    g.flicker_phase = Random(spec_.seed, RandomStream::flicker).uniform(std::uint64_t(frame));
     const double share = std::clamp(unit / spec_.frames.units, 0.0, 1.0);
     for (std::size_t i = 0; i < 3; ++i) {
-        g.linear[i] = c.exposure * g.exposure * g.light * std::exp(between(balance_[i], at));
+        g.balance[i] = std::exp(between(balance_[i], at));
+        g.linear[i] = c.exposure * g.exposure * g.light * g.jitter * g.balance[i];
         g.encoded_gain[i] = std::lerp(1.0, c.drift_gain[i], share);
         g.encoded_offset[i] = c.drift_offset[i] * share;
     }

@@ -33,7 +33,7 @@ std::vector<Nucleus> draw_nuclei(const SimulationSpec& spec, const CellGrid& gri
 
 void spread_coverage(Image<double>& theta, Image<double>& scratch,
                      const Image<double>& susceptibility, const CellGrid& grid, double diffusion,
-                     double growth, double step) {
+                     double growth, double step, const Breathe& breathe) {
     const auto strongest =
         *std::max_element(susceptibility.pixels().begin(), susceptibility.pixels().end());
     const double per_cell = diffusion / (grid.cell * grid.cell);
@@ -42,6 +42,7 @@ void spread_coverage(Image<double>& theta, Image<double>& scratch,
     const double d = per_cell * step / parts, a = growth * step / parts;
     const int columns = theta.width(), rows = theta.height();
     for (int part = 0; part < parts; ++part) {
+        if (breathe) breathe();
         parallel_rows(rows, 32, [&](RowRun run) {
             for (int y = run.begin; y < run.end; ++y) {
                 const double *here = theta.row(y), *rho = susceptibility.row(y);

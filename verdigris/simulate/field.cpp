@@ -58,7 +58,16 @@ void standardize(Image<double>& field) {
     for (double& v : field.pixels()) v = (v - mean) * scale;
 }
 
-Image<double> gray_scott(const Random& random, int side, double feed, double kill, int steps) {
+double read_between(const Image<double>& cells, double column, double row) {
+    const int x = std::clamp(int(std::floor(column)), 0, cells.width() - 2);
+    const int y = std::clamp(int(std::floor(row)), 0, cells.height() - 2);
+    const double fx = std::clamp(column - x, 0.0, 1.0), fy = std::clamp(row - y, 0.0, 1.0);
+    return std::lerp(std::lerp(cells(x, y), cells(x + 1, y), fx),
+                     std::lerp(cells(x, y + 1), cells(x + 1, y + 1), fx), fy);
+}
+
+Image<double> gray_scott(const Random& random, int side, double feed, double kill, int steps,
+                         const Breathe& breathe) {
     constexpr float kDu = 0.16f, kDv = 0.08f;
     const float f = float(feed), k = float(kill);
     Image<float> u(side, side), v(side, side), u_next(side, side), v_next(side, side);
@@ -79,6 +88,7 @@ Image<double> gray_scott(const Random& random, int side, double feed, double kil
     }
     const auto wrap = [side](int i) { return (i + side) % side; };
     for (int step = 0; step < steps; ++step) {
+        if (breathe) breathe();
         parallel_rows(side, 64, [&](RowRun run) {
             for (int y = run.begin; y < run.end; ++y) {
                 const float *u0 = u.row(y), *v0 = v.row(y);

@@ -3,6 +3,7 @@
 // comes out at any resolution.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "verdigris/pixels/image.h"
@@ -47,9 +48,16 @@ Image<double> sampled(const GaussianField& field, const CellGrid& grid);
 /// Shifts and scales to mean 0 and standard deviation 1 in place.
 void standardize(Image<double>& field);
 
+/// Between the cells, bilinearly; beyond them the nearest. `column` and `row` count cell centers.
+double read_between(const Image<double>& cells, double column, double row);
+
+/// Called now and then in long work; may throw to end it. Empty: run to the end.
+using Breathe = std::function<void()>;
+
 /// The pattern that reaction and diffusion leave [GrayScott1984] on a torus of side x side cells
 /// after `steps` explicit steps of 1 with D_u = 0.16 and D_v = 0.08: the concentration v. Stable,
 /// since 4 D <= 1; values stay in [0, 1]. O(side^2 steps); 128, 6000: ~0.1 s.
-Image<double> gray_scott(const Random& random, int side, double feed, double kill, int steps);
+Image<double> gray_scott(const Random& random, int side, double feed, double kill, int steps,
+                         const Breathe& breathe = {});
 
 }  // namespace verdigris

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "verdigris/error.h"
 #include "verdigris/simulate/spec.h"
 
@@ -162,12 +164,12 @@ SimulationSpec preset_spec(const std::string& name) {
 
 SimulationSpec full_size(SimulationSpec spec) {
     // [Paper]: both cameras, as logged.
-    if (spec.frames.width < spec.frames.height) {
-        spec.frames = {.width = 720, .height = 1280, .fps = 30, .count = 30 * 482};
-    } else {
-        spec.frames = {.width = 1920, .height = 1080, .fps = 60, .count = 60 * 601};
-    }
-    spec.grid = 256;
+    const bool upright = spec.frames.width < spec.frames.height;
+    spec.frames.width = upright ? 720 : 1920;
+    spec.frames.height = upright ? 1280 : 1080;
+    spec.frames.fps = upright ? 30 : 60;
+    spec.frames.count = upright ? 30 * 482 : 60 * 601;
+    spec.grid = std::max(spec.grid, 256);
     return spec;
 }
 

@@ -17,7 +17,6 @@ enum class RandomStream : std::uint64_t {
     drip,
     reaction,
     nuclei,
-    film,
     wetness,
     texture,
     environment,

@@ -54,6 +54,8 @@ Scene::Scene(const SimulationSpec& spec, const CellGrid& grid)
     const GaussianField bands(Random(random.bits(~0ull), RandomStream::texture),
                               90 * s.texture_scale, 6 * s.texture_scale);
     const double direction = radians(s.light_direction);
+    // cos^4 of the angle from the axis, a lens's own law, at the loss asked for half a side away.
+    const double falloff = (1 / std::sqrt(1 - s.vignette) - 1) / 0.25;
     const Affine& m = to_specimen_;
     parallel_rows(height_, 8, [&](RowRun run) {
         for (int y = run.begin; y < run.end; ++y) {
@@ -61,9 +63,10 @@ Scene::Scene(const SimulationSpec& spec, const CellGrid& grid)
                 const double px = x + 0.5, py = y + 0.5;
                 const double u = (px - 0.5 * width_) / frame_short;
                 const double v = (py - 0.5 * height_) / frame_short;
-                const double light =
-                    (1 + s.light_gradient * (u * std::cos(direction) + v * std::sin(direction))) *
-                    (1 - s.vignette * (u * u + v * v) * 2);
+                const double tilted =
+                    1 + s.light_gradient * (u * std::cos(direction) + v * std::sin(direction));
+                const double off_axis = 1 + falloff * (u * u + v * v);
+                const double light = std::max(0.0, tilted) / (off_axis * off_axis);
                 const double sx = m.a * px + m.b * py + m.c, sy = m.d * px + m.e * py + m.f;
                 const float share = share_of(sx, sy, side_px_);
                 Sight& sight = sight_(x, y);
@@ -94,7 +97,7 @@ Scene::Scene(const SimulationSpec& spec, const CellGrid& grid)
                     // The rod comes from above and ends behind the specimen.
                     const double held = sy < grid_.height / 2 ? rod : 0;
                     mount_share_(x, y) = float(held) * (1 - share);
-                    const LinearF b = behind(sx, sy, light);
+                    const LinearF b = behind(sx, sy, py / height_, light);
                     // A round bar of dark steel: brightest a third from its left.
                     const double round = (sx - grid_.width / 2) / (s.mount_width / 2);
                     const double steel =
@@ -118,14 +121,16 @@ float Scene::share_of(double x, double y, double side_px) const {
     return float(std::clamp(0.5 - d * side_px, 0.0, 1.0));
 }
 
-LinearF Scene::behind(double x, double y, double light) const {
+LinearF Scene::behind(double x, double y, double down, double light) const {
     const SceneSpec& s = spec_.scene;
-    // The lamp is opposite to where the shadow falls: down and to the right.
-    const double d =
-        std::max(0.0, rounded_box(x - grid_.width / 2 - 0.02, y - grid_.height / 2 - 0.03,
-                                  grid_.width / 2, grid_.height / 2, 0.05));
+    // The lamp is opposite to where the shadow falls: down and to the right, in the frame.
+    const double turn = radians(s.tilt), right = 0.02, below = 0.03;
+    const double dx = right * std::cos(turn) + below * std::sin(turn);
+    const double dy = below * std::cos(turn) - right * std::sin(turn);
+    const double d = std::max(0.0, rounded_box(x - grid_.width / 2 - dx, y - grid_.height / 2 - dy,
+                                               grid_.width / 2, grid_.height / 2, 0.05));
     const double shade = 1 - s.shadow * std::exp(-d * d / (2 * 0.05 * 0.05));
-    const double slope = 1 + s.backdrop_gradient * (0.5 - y / grid_.height);
+    const double slope = 1 + s.backdrop_gradient * (0.5 - down);
     const float v = float(s.backdrop * light * shade * slope);
     return {v, v, v};
 }
@@ -171,14 +176,17 @@ Image<float> Scene::seen(const Image<double>& cells) const {
         for (int x = 0; x < width_; ++x) {
             const Sight& s = sight_(x, y);
             if (s.share < 0.5f) continue;
-            const int column = std::clamp(int(s.column), 0, cells.width() - 2);
-            const int row = std::clamp(int(s.row), 0, cells.height() - 2);
-            const double fx = std::clamp(double(s.column) - column, 0.0, 1.0);
-            const double fy = std::clamp(double(s.row) - row, 0.0, 1.0);
-            map(x, y) = float(
-                std::lerp(std::lerp(cells(column, row), cells(column + 1, row), fx),
-                          std::lerp(cells(column, row + 1), cells(column + 1, row + 1), fx), fy));
+            map(x, y) = float(read_between(cells, double(s.column), double(s.row)));
         }
+    }
+    return map;
+}
+
+Image<float> Scene::light() const {
+    Image<float> map(width_, height_);
+    for (std::size_t i = 0; i < map.pixel_count(); ++i) {
+        const Sight& s = sight_.pixels()[i];
+        map.pixels()[i] = s.share > 0 ? s.light : 0;
     }
     return map;
 }
@@ -203,11 +211,12 @@ Mask Scene::reference() const {
         const bool taken = sight_.pixels()[i].share > 0 || mount_share_.pixels()[i] > 0;
         mask.pixels()[i] = taken ? 0 : kInside;
     }
-    const int margin = std::max(1, int(std::lround(0.04 * std::min(width_, height_))));
-    cv::Mat view(height_, width_, CV_8UC1, mask.row(0));
-    cv::erode(view, view,
-              cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * margin + 1, 2 * margin + 1}),
-              {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(kInside));
+    // Far enough from whatever is not backdrop; a border of it, so that all distances have an end.
+    const double margin = 0.04 * std::min(width_, height_);
+    cv::Mat view(height_, width_, CV_8UC1, mask.row(0)), distance;
+    if (cv::countNonZero(view) == int(mask.pixel_count())) return mask;
+    cv::distanceTransform(view, distance, cv::DIST_L2, cv::DIST_MASK_5, CV_32F);
+    view.setTo(cv::Scalar(0), distance < margin);
     return mask;
 }
 

@@ -21,6 +21,10 @@ class Scene {
     /// A map of the cells as the camera sees it; 0 off the specimen.
     Image<float> seen(const Image<double>& cells) const;
 
+    /// Lamp times brushing on the specimen, 0 off it: linear light is this times the color of the
+    /// cells, apart from the sheen.
+    Image<float> light() const;
+
     int width() const { return width_; }
     int height() const { return height_; }
     Mask specimen() const;  ///< 255 where the specimen fills at least half of the pixel
@@ -42,7 +46,7 @@ class Scene {
         float light;        ///< on the specimen: lamp times texture
     };
     float share_of(double x, double y, double side_px) const;
-    LinearF behind(double x, double y, double light) const;
+    LinearF behind(double x, double y, double down, double light) const;
 
     SimulationSpec spec_;
     CellGrid grid_;

@@ -46,20 +46,24 @@ class Timed {
 // The light at two neighboring nodes of 0.1 units; between them it changes along a straight line.
 class Light {
   public:
-    Light(const SimulationSpec& spec, const SimulationSinks& sinks)
+    Light(const SimulationSpec& spec, const SimulationSinks& sinks, Breathe breathe)
         : sinks_(sinks),
+          breathe_(std::move(breathe)),
           units_(spec.frames.units),
-          specimen_(spec),
+          specimen_(spec, breathe_),
           scene_(spec, specimen_.grid()),
           track_(spec) {
         show(after_);
     }
-    /// Until the interval [node, node + 1] holds `unit`.
+    /// Until the two nodes embrace `unit`.
     void advance_to(double unit) {
-        while (node_ < 0 || (node_ + 1) * CameraTrack::kNodeUnits < unit) {
+        while (node_ < 0 || (after_unit_ < unit && after_unit_ < units_)) {
             ++node_;
             std::swap(before_, after_);
-            specimen_.advance_to(std::min(units_, (node_ + 1) * CameraTrack::kNodeUnits));
+            before_unit_ = after_unit_;
+            const double next = (node_ + 1) * CameraTrack::kNodeUnits;
+            after_unit_ = next > units_ - 1e-9 ? units_ : next;
+            specimen_.advance_to(after_unit_, breathe_);
             show(after_);
         }
     }
@@ -67,8 +71,9 @@ class Light {
 
     const Image<LinearF>& before() const { return before_; }
     const Image<LinearF>& after() const { return after_; }
+    /// How far from before to after, 0 to 1.
     double share(double unit) const {
-        return std::clamp(unit / CameraTrack::kNodeUnits - node_, 0.0, 1.0);
+        return std::clamp((unit - before_unit_) / (after_unit_ - before_unit_), 0.0, 1.0);
     }
     const CameraTrack& track() const { return track_; }
 
@@ -77,17 +82,18 @@ class Light {
         scene_.compose(specimen_.color(), frame);
         track_.see(mean_luminance(frame));
         const double unit = specimen_.unit();
-        const bool last = unit >= units_ - 1e-9;
-        if (sinks_.state && (last || std::abs(unit - std::round(unit)) < 1e-6))
+        if (sinks_.state && (unit == units_ || std::abs(unit - std::round(unit)) < 1e-6))
             sinks_.state(specimen_);
     }
 
     const SimulationSinks& sinks_;
+    Breathe breathe_;
     double units_;
     Specimen specimen_;
     Scene scene_;
     CameraTrack track_;
     Image<LinearF> before_, after_;
+    double before_unit_ = 0, after_unit_ = 0;
     int node_ = -1;
 };
 
@@ -101,23 +107,27 @@ SimulationResult simulate(const SimulationSpec& spec, const SimulationSinks& sin
                           const Progress& progress) {
     check_spec(spec);
     SimulationResult result;
+    int frame = 0;
+    // Also asked between frames: a fine grid can take long from one to the next.
+    const Breathe breathe = [&] { report(progress, "simulate", frame, spec.frames.count); };
     std::unique_ptr<Light> light;
     std::unique_ptr<Camera> camera;
     {
         const Timed timed(result.seconds_specimen);
-        light = std::make_unique<Light>(spec, sinks);
+        light = std::make_unique<Light>(spec, sinks, breathe);
         camera = std::make_unique<Camera>(spec);
     }
     Image<SrgbU8> frame8;
     Image<SrgbU16> frame16;
     for (int i = 0; i < spec.frames.count; ++i) {
-        report(progress, "simulate", i, spec.frames.count);
+        frame = i;
+        breathe();
         const double unit = frame_unit(spec.frames, i);
         {
             const Timed timed(result.seconds_specimen);
             light->advance_to(unit);
         }
-        const FrameGains gains = light->track().gains(unit);
+        const FrameGains gains = light->track().gains(unit, i);
         result.gains.push_back(gains);
         const bool deep = spec.camera.bits == 16;
         {

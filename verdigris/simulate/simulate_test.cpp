@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
 #include <vector>
 
+#include "verdigris/color/convert.h"
 #include "verdigris/error.h"
 #include "verdigris/files/testing.h"
 #include "verdigris/pixels/parallel_rows.h"
@@ -81,6 +86,89 @@ TEST(Simulate, GainsAreOnePerFrame) {
     ASSERT_EQ(result.gains.size(), 60u);
     for (int i = 0; i < 60; ++i)
         EXPECT_EQ(result.gains[std::size_t(i)].unit, frame_unit(spec.frames, i));
+}
+
+TEST(Simulate, AFrameIsTheSceneUnderItsGains) {
+    // Everything that the camera does but noise; then undone with the truth.
+    SimulationSpec spec = small("air");
+    spec.camera.bits = 16;
+    spec.camera.shot_noise = spec.camera.read_noise = 0;
+    spec.camera.flicker = 0.03;
+    spec.camera.drift_gain = {1.04, 0.97, 1};
+    spec.camera.drift_offset = {0, 0.02, -0.01};
+    std::vector<Image<SrgbU16>> frames;
+    const SimulationResult result =
+        simulate(spec, {.frame8 = {},
+                        .frame16 =
+                            [&](int, ImageView<const SrgbU16> view) {
+                                Image<SrgbU16> copy(view.width(), view.height());
+                                for (int y = 0; y < view.height(); ++y)
+                                    std::copy(view.row(y), view.row(y) + view.width(), copy.row(y));
+                                frames.push_back(std::move(copy));
+                            },
+                        .state = {}});
+    Specimen specimen(spec);
+    const Scene scene(spec, specimen.grid());
+    const Mask backdrop = scene.reference();
+    Image<LinearF> light;
+    scene.compose(specimen.color(), light);  // the backdrop never changes
+    int checked = 0;
+    for (const std::size_t i : {std::size_t(0), std::size_t(31), std::size_t(59)}) {
+        const FrameGains& g = result.gains[i];
+        for (int y = 0; y < 48; y += 5) {
+            for (int x = 0; x < 48; x += 5) {
+                if (!backdrop(x, y)) continue;
+                const double turns = spec.camera.flicker_bands * y / 48 + g.flicker_phase;
+                const double band = 1 + 0.03 * std::sin(2 * std::numbers::pi * turns);
+                const double linear = double(light(x, y).g) * g.linear[1] * band;
+                const double encoded = double(srgb_from_linear(float(linear))) * g.encoded_gain[1] +
+                                       g.encoded_offset[1];
+                EXPECT_NEAR(frames[i](x, y).g / 65535.0, encoded, 2e-5);
+                ++checked;
+            }
+        }
+        EXPECT_NEAR(g.linear[2],
+                    spec.camera.exposure * g.exposure * g.light * g.jitter * g.balance[2], 1e-12);
+    }
+    EXPECT_GT(checked, 20);
+}
+
+TEST(Simulate, TheLastFrameShowsTheEndEvenOffTheGridOfTenths) {
+    SimulationSpec spec = small("uniform");
+    spec.frames.units = 0.15;
+    spec.frames.count = 100;
+    spec.oxide.growth.parabolic_rate = 2000;  // visible within so little
+    spec.camera = CameraSpec{.bits = 16};
+    Image<SrgbU16> last(48, 48);
+    std::vector<double> units;
+    simulate(spec, {.frame8 = {},
+                    .frame16 =
+                        [&](int, ImageView<const SrgbU16> view) {
+                            for (int y = 0; y < 48; ++y)
+                                std::copy(view.row(y), view.row(y) + 48, last.row(y));
+                        },
+                    .state = [&](const Specimen& s) { units.push_back(s.unit()); }});
+    EXPECT_EQ(units, (std::vector<double>{0, 0.15}));
+    Specimen specimen(spec);
+    specimen.advance_to(0.15);
+    const Scene scene(spec, specimen.grid());
+    Image<LinearF> light;
+    scene.compose(specimen.color(), light);
+    // The last frame is taken half a frame before the end.
+    EXPECT_NEAR(last(24, 24).b / 65535.0,
+                double(srgb_from_linear(float(double(light(24, 24).b) * spec.camera.exposure))),
+                0.004);
+}
+
+TEST(Simulate, ItStopsBetweenFramesToo) {
+    SimulationSpec spec = small("spotted");
+    spec.frames.count = 2;
+    int calls = 0;
+    const Error error = error_of([&] {
+        simulate(spec, {},
+                 [&](std::string_view, std::int64_t, std::int64_t) { return ++calls < 50; });
+    });
+    EXPECT_EQ(error.code(), ErrorCode::interrupted);
 }
 
 TEST(Simulate, ItStopsWhenAsked) {

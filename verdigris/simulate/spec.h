@@ -26,18 +26,19 @@ struct SusceptibilitySpec {
     double coarse = 0.22;      ///< correlation length of the broad pattern, sides
     double fine = 0.035;       ///< and of the fine one
     double fine_share = 0.35;  ///< share of the fine pattern in the variance
-    double stretch = 1;        ///< rolling direction: patterns longer along x by this factor
+    double stretch = 1;        ///< rolling direction: patterns longer along x, by 1 or more
     double edge = 0;           ///< log boost at the rim
     double edge_width = 0.06;  ///< over which it falls to 1/e, sides
     double drip = 0;           ///< log amplitude of streaks that run down
     double feed = 0.035, kill = 0.060;  ///< of Gray and Scott; other pairs, other patterns
     int steps = 6000;                   ///< of the reaction
-    double reaction_scale = 0.025;      ///< one cell of the reaction, sides
+    double reaction_scale = 0.025;      ///< four cells of the reaction, sides
 };
 
-/// Where the film starts and how it spreads: coverage theta in [0, 1].
+/// Where the film starts to grow and how that spreads: theta in [0, 1], the share of a cell whose
+/// film grows. The film the specimen starts with (OxideSpec) lies everywhere.
 struct NucleationSpec {
-    double initial = 1;          ///< coverage at the start; 1: a closed film from the first moment
+    double initial = 1;          ///< at the start; 1: all of it grows from the first moment
     double seeds = 0;            ///< nuclei per unit of area (a side squared) and unit of time
     double seed_radius = 0.015;  ///< of a nucleus, sides
     double growth = 0;           ///< rate a of a rho theta (1 - theta), per unit
@@ -76,7 +77,7 @@ struct SceneSpec {
     double mount_width = 0.06;              ///< sides
     double light_gradient = 0.08;           ///< relative, across the frame
     double light_direction = 30;            ///< degrees, from +x clockwise, where it is brighter
-    double vignette = 0.06;                 ///< relative loss in the corners
+    double vignette = 0.03;                 ///< relative loss half a short side from the middle
     double texture = 0.04;                  ///< log amplitude of the brushing
     double texture_angle = 0;               ///< degrees, along the brush lines
     double texture_scale = 0.006;           ///< width of a brush line, sides

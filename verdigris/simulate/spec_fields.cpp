@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <numbers>
 #include <type_traits>
 
 #include "verdigris/error.h"
@@ -35,11 +36,11 @@ void add_top(SimulationSpec& s, std::vector<SpecField>& f) {
 
 void add_frames(FrameSpec& s, std::vector<SpecField>& f) {
     const Section add{f, "frames"};
-    add("width", &s.width, 16, 8192, "pixels");
-    add("height", &s.height, 16, 8192, "pixels");
+    add("width", &s.width, 16, 4096, "pixels");
+    add("height", &s.height, 16, 4096, "pixels");
     add("fps", &s.fps, 0.001, 1000, "frames per second of the file");
     add("count", &s.count, 2, 1000000, "frames; 984 are one per sample of the unit grid");
-    add("units", &s.units, 0.1, 10000, "accelerated units that they span");
+    add("units", &s.units, 0.1, 1000, "accelerated units that they span");
 }
 
 void add_scene(SceneSpec& s, std::vector<SpecField>& f) {
@@ -56,7 +57,7 @@ void add_scene(SceneSpec& s, std::vector<SpecField>& f) {
     add("mount_width", &s.mount_width, 0.001, 1, "sides");
     add("light_gradient", &s.light_gradient, -1, 1, "relative, over one short side of the frame");
     add("light_direction", &s.light_direction, -360, 360, "degrees, where it is brighter");
-    add("vignette", &s.vignette, 0, 0.5, "relative loss at the end of the short side");
+    add("vignette", &s.vignette, 0, 0.5, "relative loss half a short side from the middle");
     add("texture", &s.texture, 0, 1, "log amplitude of the brushing");
     add("texture_angle", &s.texture_angle, -360, 360, "degrees, along the brush lines");
     add("texture_scale", &s.texture_scale, 0.0005, 1, "width of a brush line, sides");
@@ -75,23 +76,23 @@ void add_susceptibility(SusceptibilitySpec& s, std::vector<SpecField>& f) {
     add("coarse", &s.coarse, 0.01, 100, "correlation length of the broad pattern, sides");
     add("fine", &s.fine, 0.001, 100, "and of the fine one");
     add("fine_share", &s.fine_share, 0, 1, "share of the fine pattern in the variance");
-    add("stretch", &s.stretch, 0.01, 100, "longer along x by this: the rolling direction");
+    add("stretch", &s.stretch, 1, 100, "longer along x by this: the rolling direction");
     add("edge", &s.edge, -3, 3, "log boost at the rim");
     add("edge_width", &s.edge_width, 0.001, 10, "over which it falls to 1/e, sides");
     add("drip", &s.drip, -3, 3, "log amplitude of streaks that run down");
     add("feed", &s.feed, 0, 0.2, "of Gray and Scott; other pairs, other patterns");
     add("kill", &s.kill, 0, 0.2, "");
     add("steps", &s.steps, 0, 100000, "of the reaction");
-    add("reaction_scale", &s.reaction_scale, 0.005, 1, "four cells of the reaction, sides");
+    add("reaction_scale", &s.reaction_scale, 0.016, 0.25, "four cells of the reaction, sides");
 }
 
 void add_nucleation(NucleationSpec& s, std::vector<SpecField>& f) {
     const Section add{f, "nucleation"};
-    add("initial", &s.initial, 0, 1, "coverage at the start; 1 is a closed film");
-    add("seeds", &s.seeds, 0, 10000, "nuclei per side^2 and unit");
-    add("seed_radius", &s.seed_radius, 0, 1, "sides");
-    add("growth", &s.growth, 0, 100, "a of a rho theta (1 - theta), per unit");
-    add("diffusion", &s.diffusion, 0, 0.1, "of the coverage, sides^2 per unit");
+    add("initial", &s.initial, 0, 1, "share that grows at the start; 1 is all of it");
+    add("seeds", &s.seeds, 0, 1000, "nuclei per side^2 and unit");
+    add("seed_radius", &s.seed_radius, 0, 0.2, "sides");
+    add("growth", &s.growth, 0, 10, "a of a rho theta (1 - theta), per unit");
+    add("diffusion", &s.diffusion, 0, 0.01, "of the coverage, sides^2 per unit");
 }
 
 void add_oxide(OxideSpec& s, std::vector<SpecField>& f) {
@@ -149,7 +150,7 @@ void add_camera(CameraSpec& s, std::vector<SpecField>& f) {
     add("flicker_bands", &s.flicker_bands, 0, 1000, "of them in a frame");
     add("shot_noise", &s.shot_noise, 0, 1, "a of variance a v + b^2, linear light, per sample");
     add("read_noise", &s.read_noise, 0, 1, "b");
-    add("bits", &s.bits, 8, 16, "of a code: 8, or 16 (folders of frames only)");
+    add("bits", &s.bits, 8, 16, "of a code; 16 not in .mp4");
     add("drift_gain", &s.drift_gain, 0.01, 100, "encoded R, G, B at the end: an affine drift");
     add("drift_offset", &s.drift_offset, -1, 1, "encoded R, G, B at the end");
 }
@@ -182,8 +183,12 @@ std::string allowed(const SpecField& field) {
                 return fmt::format("\"{}\"", fmt::join(value.words, "\" and \""));
             } else if constexpr (std::is_same_v<T, std::array<double, 3>*>) {
                 return fmt::format("three numbers, each {} to {}", field.least, field.most);
-            } else {
+            } else if (field.name() == "camera.bits") {
+                return "8 and 16";
+            } else if constexpr (std::is_same_v<T, double*>) {
                 return fmt::format("{} to {}", field.least, field.most);
+            } else {
+                return fmt::format("whole numbers from {} to {}", field.least, field.most);
             }
         },
         field.value);
@@ -229,8 +234,14 @@ void check_spec(const SimulationSpec& spec) {
             fmt::format("scene.width is {} and scene.height is {}; allowed are sides up to 20 "
                         "times each other",
                         spec.scene.width, spec.scene.height));
+    // The reaction's cells, four to a scale along the longer side.
+    if (4 * longer / shorter / spec.susceptibility.reaction_scale > 1024)
+        refuse(
+            fmt::format("susceptibility.reaction_scale is {}; allowed are {:.3g} and more on a "
+                        "specimen of this shape",
+                        spec.susceptibility.reaction_scale, longer / shorter / 256));
     const double frame_short = std::fmin(spec.frames.width, spec.frames.height);
-    const double angle = spec.scene.tilt * 3.14159265358979 / 180;
+    const double angle = spec.scene.tilt * std::numbers::pi / 180;
     const double c = std::fabs(std::cos(angle)), s = std::fabs(std::sin(angle));
     const double half_w = (spec.scene.width * c + spec.scene.height * s) / 2 * frame_short;
     const double half_h = (spec.scene.width * s + spec.scene.height * c) / 2 * frame_short;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numeric>
 #include <sstream>
 #include <type_traits>
@@ -36,6 +37,32 @@ std::size_t distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+// chosen: a spec with every key is 7 kB.
+constexpr std::size_t kMostBytes = std::size_t(1) << 20;
+
+// The parser nests a table for every dot of a key and takes them down by recursion: tens of
+// thousands of them would end the program. No honest line has a hundred.
+void check_dots(std::string_view text, const std::filesystem::path& path) {
+    int line = 1, dots = 0;
+    bool comment = false;
+    for (const char c : text) {
+        if (c == '\n') ++line, dots = 0, comment = false;
+        if (c == '#') comment = true;
+        if (c != '.' || comment || ++dots < 100) continue;
+        throw Error(ErrorCode::bad_input,
+                    "is not a spec: a line has a hundred dots; allowed are keys under [section]",
+                    fmt::format("{}, line {}", path.string(), line));
+    }
+}
+
+// What the user wrote, short and harmless on a terminal.
+std::string shown(std::string_view text) {
+    std::string out;
+    for (const char c : text.substr(0, 60))
+        out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+    return text.size() > 60 ? out + "..." : out;
+}
+
 class Reader {
   public:
     Reader(const std::filesystem::path& path, SimulationSpec& spec)
@@ -47,6 +74,10 @@ class Reader {
             if (const toml::table* table = node.as_table()) {
                 if (!is_section(key.str())) unknown(key.source(), "section", key.str(), sections());
                 for (const auto& [inner, value] : *table) set(key.str(), inner, value);
+            } else if (is_section(key.str())) {
+                fail(key.source(), fmt::format("{0} is no value; allowed is a section, [{0}] with "
+                                               "its keys below",
+                                               key.str()));
             } else {
                 set("", key, node);
             }
@@ -56,6 +87,18 @@ class Reader {
     [[noreturn]] void fail(const toml::source_region& at, const std::string& sentence) const {
         throw Error(ErrorCode::bad_input, sentence,
                     fmt::format("{}, line {}", path_.string(), at.begin.line));
+    }
+
+    /// Two keys that do not go together: the line of the one that the sentence begins with, if the
+    /// file has it.
+    void check_together() const {
+        try {
+            check_spec(spec_);
+        } catch (const Error& e) {
+            const auto line = lines_.find(e.sentence().substr(0, e.sentence().find(' ')));
+            if (line != lines_.end()) fail(line->second, e.sentence());
+            throw Error(ErrorCode::bad_input, e.sentence(), path_.string());
+        }
     }
 
   private:
@@ -75,11 +118,12 @@ class Reader {
     [[noreturn]] void unknown(const toml::source_region& at, const char* what,
                               std::string_view name,
                               const std::vector<std::string_view>& known) const {
+        if (name.size() > 60) name = name.substr(0, 60);  // the comparison is quadratic
         const auto near = std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
             return distance(a, name) < distance(b, name);
         });
         const bool close = near != known.end() && distance(*near, name) <= 3;
-        fail(at, fmt::format("there is no {} '{}'{}; allowed are {}", what, name,
+        fail(at, fmt::format("there is no {} '{}'{}; allowed are {}", what, shown(name),
                              close ? fmt::format(" (did you mean '{}'?)", *near) : "",
                              fmt::join(known, ", ")));
     }
@@ -100,6 +144,10 @@ class Reader {
     }
 
     [[noreturn]] void refuse(const SpecField& field, const toml::node& node) const {
+        // A list of three numbers of which one is wrong is shown, not called a list.
+        const toml::array* list = node.as_array();
+        if (list && list->size() == 3 && list->is_homogeneous<double>())
+            if (const std::string text = complaint(field); !text.empty()) fail(node.source(), text);
         std::ostringstream text;
         node.visit([&](const auto& value) {
             using T = std::decay_t<decltype(value)>;
@@ -108,11 +156,12 @@ class Reader {
             else
                 text << (toml::is_array<T> ? "a list" : "a table");
         });
-        fail(node.source(),
-             fmt::format("{} is {}; allowed are {}", field.name(), text.str(), allowed(field)));
+        fail(node.source(), fmt::format("{} is {}; allowed are {}", field.name(), shown(text.str()),
+                                        allowed(field)));
     }
 
     void take(SpecField& field, const toml::node& node) {
+        lines_[field.name()] = node.source();
         std::visit([&](auto& value) { take_as(field, node, value); }, field.value);
         if (!complaint(field).empty()) refuse(field, node);
     }
@@ -150,9 +199,10 @@ class Reader {
                  std::filesystem::path* value) const {
         const auto text = node.value_exact<std::string>();
         if (!text) refuse(field, node);
-        *value = text->empty() || std::filesystem::path(*text).is_absolute()
-                     ? std::filesystem::path(*text)
-                     : path_.parent_path() / *text;
+        // Absolute, so that the resolved spec means the same wherever it is written.
+        *value = text->empty()
+                     ? std::filesystem::path()
+                     : std::filesystem::absolute(path_.parent_path() / *text).lexically_normal();
         if (value->empty()) return;
         try {
             // All of the visible range, as the optics will ask for it.
@@ -174,6 +224,7 @@ class Reader {
     std::filesystem::path path_;
     SimulationSpec& spec_;
     std::vector<SpecField> fields_;
+    std::map<std::string, toml::source_region> lines_;  ///< of the keys that the file has
 };
 
 std::string text_of(const SpecField& field) {
@@ -198,7 +249,8 @@ std::string text_of(const SpecField& field) {
 }  // namespace
 
 SimulationSpec read_spec(const std::filesystem::path& path, const std::string& fallback) {
-    const std::string text = read_text(path);
+    const std::string text = read_text(path, kMostBytes);
+    check_dots(text, path);
     toml::table file;
     try {
         file = toml::parse(text, path.string());
@@ -222,12 +274,9 @@ SimulationSpec read_spec(const std::filesystem::path& path, const std::string& f
         preset = *name;
     }
     spec = preset_spec(preset);
-    Reader(path, spec).read(file);
-    try {
-        check_spec(spec);
-    } catch (const Error& e) {  // two keys that do not go together
-        throw Error(ErrorCode::bad_input, e.sentence(), path.string());
-    }
+    Reader reader(path, spec);
+    reader.read(file);
+    reader.check_together();
     return spec;
 }
 

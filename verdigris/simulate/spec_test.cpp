@@ -10,6 +10,7 @@
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/testing.h"
+#include "verdigris/simulate/effort.h"
 #include "verdigris/simulate/spec_fields.h"
 #include "verdigris/simulate/spec_file.h"
 
@@ -108,9 +109,10 @@ TEST_F(SpecFile, ABadSpecIsRefusedNamingKeyLineAndRange) {
     EXPECT_EQ(refused("[scene]\nmount = 1\n"),
               "my.toml, line 2: scene.mount is 1; allowed are true and false");
     EXPECT_EQ(refused("[frames]\ncount = 1.5\n"),
-              "my.toml, line 2: frames.count is 1.5; allowed are 2 to 1000000");
+              "my.toml, line 2: frames.count is 1.5; allowed are whole numbers from 2 to 1000000");
     EXPECT_EQ(refused("[frames]\ncount = 99999999999\n"),
-              "my.toml, line 2: frames.count is 99999999999; allowed are 2 to 1000000");
+              "my.toml, line 2: frames.count is 99999999999; allowed are whole numbers from 2 to "
+              "1000000");
     EXPECT_EQ(refused("seed = -1\n").substr(0, 27), "my.toml, line 1: seed is -1");
     EXPECT_EQ(refused("[susceptibility]\npattern = \"stripes\"\n"),
               "my.toml, line 2: susceptibility.pattern is 'stripes'; allowed are \"gaussian\" and "
@@ -124,13 +126,47 @@ TEST_F(SpecFile, ABadSpecIsRefusedNamingKeyLineAndRange) {
               std::string::npos);
     EXPECT_NE(refused("[oxide\n").find("line 1: is not TOML"), std::string::npos);
     EXPECT_NE(refused("seed = [1, 2]\n").find("seed is a list"), std::string::npos);
-    EXPECT_NE(refused("oxide = 3\n").find("line 1: there is no key 'oxide'"), std::string::npos);
-    EXPECT_NE(refused("[camera]\nbits = 12\n").find("camera.bits is 12; allowed are 8 and 16"),
-              std::string::npos);
-    EXPECT_NE(refused("[oxide]\nfresh_nm = 200\n").find("oxide.fresh_nm is 200"),
+    EXPECT_NE(
+        refused("oxide = 3\n").find("line 1: oxide is no value; allowed is a section, [oxide]"),
+        std::string::npos);
+    EXPECT_NE(
+        refused("[camera]\nbits = 12\n").find("line 2: camera.bits is 12; allowed are 8 and 16"),
+        std::string::npos);
+    EXPECT_NE(refused("[oxide]\nfresh_nm = 200\n").find("line 2: oxide.fresh_nm is 200"),
               std::string::npos);
     EXPECT_NE(refused("[scene]\nwidth = 0.05\nheight = 8\n").find("up to 20 times"),
               std::string::npos);
+}
+
+TEST_F(SpecFile, HostileFilesGetASentenceToo) {
+    std::string dots = "a";
+    for (int i = 0; i < 50000; ++i) dots += ".a";
+    EXPECT_NE(refused(dots + " = 1\n").find("line 1: is not a spec"), std::string::npos);
+    EXPECT_LT(
+        refused("preset = \"air\"\n[oxide]\nthin_film = \"" + std::string(100000, 'x') + "\"\n")
+            .size(),
+        300u);
+    const std::string escaped = refused("[oxide]\n\"\\u001b[31mred\" = 1\n");
+    EXPECT_EQ(escaped.find('\x1b'), std::string::npos) << escaped;
+    EXPECT_LT(refused(std::string(200000, 'k') + " = 1\n").size(), 1500u);
+    std::string nested = "seed = ";
+    for (int i = 0; i < 5000; ++i) nested += "[";
+    EXPECT_NE(refused(nested).find("is not TOML"), std::string::npos);
+}
+
+TEST(Spec, TheEffortOfAPresetIsMinutesAndOfAnExtremeOneIsSaid) {
+    for (const std::string& name : preset_names()) {
+        const Effort effort = estimated_effort(preset_spec(name));
+        EXPECT_LT(effort.hours, 0.1) << name;
+        EXPECT_LT(effort.gigabytes, 0.5) << name;
+        EXPECT_LT(estimated_effort(full_size(preset_spec(name))).hours, 4) << name;
+    }
+    SimulationSpec spec = preset_spec("spotted");
+    spec.grid = 1024;
+    spec.nucleation.diffusion = 0.01;
+    const Effort effort = estimated_effort(spec);
+    EXPECT_GT(effort.hours, 1);
+    EXPECT_EQ(effort.mostly, "grid with nucleation.diffusion and nucleation.growth");
 }
 
 TEST_F(SpecFile, AnOpticalTableIsReadWhereTheSpecNamesIt) {
@@ -139,6 +175,11 @@ TEST_F(SpecFile, AnOpticalTableIsReadWhereTheSpecNamesIt) {
     write_file(folder_.path() / "silver.csv", rows);
     const SimulationSpec spec = read("[oxide]\nmetal_table = \"silver.csv\"\n");
     EXPECT_EQ(spec.oxide.metal_table, folder_.path() / "silver.csv");
+    // The resolved spec means the same table wherever it is written.
+    std::filesystem::create_directory(folder_ / "elsewhere");
+    write_file(folder_ / "elsewhere" / "resolved.toml", spec_text(spec));
+    EXPECT_EQ(read_spec(folder_ / "elsewhere" / "resolved.toml", "air").oxide.metal_table,
+              spec.oxide.metal_table);
     EXPECT_NE(refused("[oxide]\nmetal_table = \"gold.csv\"\n")
                   .find("line 2: oxide.metal_table cannot be used: "),
               std::string::npos);

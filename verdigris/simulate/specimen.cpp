@@ -34,6 +34,16 @@ SurfaceOptics optics_of(const OxideSpec& oxide) {
     return optics;
 }
 
+// The thickest film there will be: what the table of colors must reach.
+double thickest(const SimulationSpec& spec, const GrowthLaw& law, const Environment& environment,
+                const Image<double>& susceptibility) {
+    const double rho =
+        *std::max_element(susceptibility.pixels().begin(), susceptibility.pixels().end());
+    const double start = spec.oxide.initial_nm * std::pow(rho, spec.oxide.initial_follows);
+    const double end = law.grow(start, rho * environment.exposure(0, spec.frames.units));
+    return std::clamp(end, 1000.0, 5000.0);
+}
+
 SimulationSpec checked(SimulationSpec spec) {
     check_spec(spec);
     return spec;
@@ -45,18 +55,19 @@ CellGrid specimen_grid(const SimulationSpec& spec) {
     return cell_grid(spec.scene.width, spec.scene.height, spec.grid);
 }
 
-Specimen::Specimen(const SimulationSpec& spec)
+Specimen::Specimen(const SimulationSpec& spec, const Breathe& breathe)
     : spec_(checked(spec)),
       grid_(specimen_grid(spec)),
       environment_(environment_of(spec), spec.frames.units),
       law_(spec.oxide.growth),
-      table_(optics_of(spec.oxide)),
-      susceptibility_(susceptibility_field(spec, grid_)),
+      susceptibility_(susceptibility_field(spec, grid_, breathe)),
       wetness_(wetness_field(spec, grid_)),
       coverage_(grid_.columns, grid_.rows),
       scratch_(grid_.columns, grid_.rows),
       film_nm_(grid_.columns, grid_.rows),
       patina_um_(grid_.columns, grid_.rows),
+      table_(optics_of(spec.oxide),
+             {.most_nm = thickest(spec, law_, environment_, susceptibility_)}),
       nuclei_(draw_nuclei(spec, grid_, susceptibility_)) {
     std::fill(coverage_.pixels().begin(), coverage_.pixels().end(), spec.nucleation.initial);
     for (std::size_t i = 0; i < film_nm_.pixel_count(); ++i) {
@@ -86,13 +97,13 @@ void Specimen::plant(double until) {
     }
 }
 
-void Specimen::step(double to) {
+void Specimen::step(double to, const Breathe& breathe) {
     const double span = to - unit_;
     const double pace = environment_.exposure(unit_, to);
     plant(to);
     if (spec_.nucleation.growth > 0 || spec_.nucleation.diffusion > 0) {
         spread_coverage(coverage_, scratch_, susceptibility_, grid_, spec_.nucleation.diffusion,
-                        spec_.nucleation.growth * pace / span, span);
+                        spec_.nucleation.growth * pace / span, span, breathe);
     }
     const bool patina = spec_.patina.growth.rate > 0;
     const double wet = span * spec_.patina.wet_share;
@@ -116,11 +127,12 @@ void Specimen::step(double to) {
     unit_ = to;
 }
 
-void Specimen::advance_to(double unit) {
+void Specimen::advance_to(double unit, const Breathe& breathe) {
     while (unit_ < unit) {
         // Steps end on the same marks however a caller advances, so that the coverage does too.
         const double mark = (std::floor(unit_ / kStepUnits + 1e-9) + 1) * kStepUnits;
-        step(mark > unit - 1e-9 ? unit : mark);
+        if (breathe) breathe();
+        step(mark > unit - 1e-9 ? unit : mark, breathe);
     }
 }
 

@@ -16,7 +16,8 @@
 namespace verdigris {
 
 /// Susceptibility rho(x) > 0, mean 1 over the cells: static, as in the paper.
-Image<double> susceptibility_field(const SimulationSpec& spec, const CellGrid& grid);
+Image<double> susceptibility_field(const SimulationSpec& spec, const CellGrid& grid,
+                                   const Breathe& breathe = {});
 /// Wetness > 0, mean 1: where water stands and runs.
 Image<double> wetness_field(const SimulationSpec& spec, const CellGrid& grid);
 
@@ -27,7 +28,7 @@ CellGrid specimen_grid(const SimulationSpec& spec);
 struct Nucleus {
     double unit, x, y;  ///< when, and where in sides
 };
-/// A Poisson process over time and area whose rate follows rho, in the order of time.
+/// A Poisson process over time and area whose rate follows rho, up to 4, in the order of time.
 std::vector<Nucleus> draw_nuclei(const SimulationSpec& spec, const CellGrid& grid,
                                  const Image<double>& susceptibility);
 
@@ -36,16 +37,16 @@ std::vector<Nucleus> draw_nuclei(const SimulationSpec& spec, const CellGrid& gri
 /// 1]. `scratch` is of the same size.
 void spread_coverage(Image<double>& theta, Image<double>& scratch,
                      const Image<double>& susceptibility, const CellGrid& grid, double diffusion,
-                     double growth, double step);
+                     double growth, double step, const Breathe& breathe = {});
 
 class Specimen {
   public:
     /// Throws as check_spec(), and Error{bad_input} naming an optical table that cannot be used.
-    explicit Specimen(const SimulationSpec& spec);
+    explicit Specimen(const SimulationSpec& spec, const Breathe& breathe = {});
 
     /// To a later time, in steps of kStepUnits at most. Deterministic at any thread count; the
     /// result depends on the steps only through the coverage. ~60 ns a cell and step, one core.
-    void advance_to(double unit);
+    void advance_to(double unit, const Breathe& breathe = {});
     double unit() const { return unit_; }
 
     /// Linear sRGB of every cell before any exposure. ~20 ns a cell.
@@ -54,23 +55,25 @@ class Specimen {
     const CellGrid& grid() const { return grid_; }
     const Image<double>& susceptibility() const { return susceptibility_; }
     const Image<double>& wetness() const { return wetness_; }
-    const Image<double>& coverage() const { return coverage_; }  ///< theta in [0, 1]
-    const Image<double>& film_nm() const { return film_nm_; }    ///< never falls
+    const Image<double>& coverage() const {
+        return coverage_;
+    }  ///< theta in [0, 1], the share that grows
+    const Image<double>& film_nm() const { return film_nm_; }  ///< never falls
     const Image<double>& patina_um() const { return patina_um_; }
     const Environment& environment() const { return environment_; }
 
     static constexpr double kStepUnits = 0.1;
 
   private:
-    void step(double to);
+    void step(double to, const Breathe& breathe);
     void plant(double until);
 
     SimulationSpec spec_;
     CellGrid grid_;
     Environment environment_;
     GrowthLaw law_;
-    ColorTable table_;
     Image<double> susceptibility_, wetness_, coverage_, scratch_, film_nm_, patina_um_;
+    ColorTable table_;
     std::vector<Nucleus> nuclei_;
     std::size_t planted_ = 0;
     double unit_ = 0;

@@ -17,21 +17,19 @@ void make_mean_one(Image<double>& field) {
 }
 
 // The reaction's own cells, read between them: its spots have a size in sides, whatever the grid.
-Image<double> reaction_pattern(const SimulationSpec& spec, const CellGrid& grid) {
+Image<double> reaction_pattern(const SimulationSpec& spec, const CellGrid& grid,
+                               const Breathe& breathe) {
     const SusceptibilitySpec& s = spec.susceptibility;
     const double longer = std::max(grid.width, grid.height);
-    const int side = std::clamp(int(std::ceil(longer / s.reaction_scale * 4)), 32, 256);
-    const Image<double> v =
-        gray_scott(Random(spec.seed, RandomStream::reaction), side, s.feed, s.kill, s.steps);
+    const int side = std::max(16, int(std::ceil(longer / s.reaction_scale * 4)));
+    const Image<double> v = gray_scott(Random(spec.seed, RandomStream::reaction), side, s.feed,
+                                       s.kill, s.steps, breathe);
     Image<double> pattern(grid.columns, grid.rows);
+    const double per_side = side / longer;
     for (int y = 0; y < grid.rows; ++y) {
         for (int x = 0; x < grid.columns; ++x) {
-            const double gx = grid.x(x) / longer * side - 0.5, gy = grid.y(y) / longer * side - 0.5;
-            const int x0 = std::clamp(int(std::floor(gx)), 0, side - 2);
-            const int y0 = std::clamp(int(std::floor(gy)), 0, side - 2);
-            const double fx = std::clamp(gx - x0, 0.0, 1.0), fy = std::clamp(gy - y0, 0.0, 1.0);
-            pattern(x, y) = std::lerp(std::lerp(v(x0, y0), v(x0 + 1, y0), fx),
-                                      std::lerp(v(x0, y0 + 1), v(x0 + 1, y0 + 1), fx), fy);
+            pattern(x, y) =
+                read_between(v, grid.x(x) / s.stretch * per_side - 0.5, grid.y(y) * per_side - 0.5);
         }
     }
     standardize(pattern);
@@ -40,11 +38,12 @@ Image<double> reaction_pattern(const SimulationSpec& spec, const CellGrid& grid)
 
 }  // namespace
 
-Image<double> susceptibility_field(const SimulationSpec& spec, const CellGrid& grid) {
+Image<double> susceptibility_field(const SimulationSpec& spec, const CellGrid& grid,
+                                   const Breathe& breathe) {
     const SusceptibilitySpec& s = spec.susceptibility;
     const Image<double> broad =
         s.pattern == SusceptibilitySpec::Pattern::reaction_diffusion
-            ? reaction_pattern(spec, grid)
+            ? reaction_pattern(spec, grid, breathe)
             : sampled(GaussianField(Random(spec.seed, RandomStream::susceptibility),
                                     s.coarse * s.stretch, s.coarse),
                       grid);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -64,6 +65,8 @@ void TruthWriter::write_maps(const Specimen& specimen) {
     cells("susceptibility.npy", specimen.susceptibility());
     cells("wetness.npy", specimen.wetness());
     const Scene scene(spec_, grid_);
+    from_frame_ = scene.specimen_from_frame();
+    write_plane(to / "light.npy", NpyType::f32, scene.light());
     const Image<float> rho = scene.seen(specimen.susceptibility());
     write_plane(to / "susceptibility.npy", NpyType::f32, rho);
     write_exr(to / "susceptibility.exr", rho);
@@ -82,32 +85,30 @@ void TruthWriter::commit(const SimulationResult& result, const std::string& reco
               std::as_bytes(std::span(units_)));
 
     CsvTable gains;
-    gains.header = {"frame",
-                    "unit",
-                    "linear_r",
-                    "linear_g",
-                    "linear_b",
-                    "exposure",
-                    "light",
-                    "encoded_gain_r",
-                    "encoded_gain_g",
-                    "encoded_gain_b",
-                    "encoded_offset_r",
-                    "encoded_offset_g",
-                    "encoded_offset_b"};
+    gains.header = {"frame", "unit"};
+    for (const char* name :
+         {"linear_r", "linear_g", "linear_b", "exposure", "light", "jitter", "balance_r",
+          "balance_g", "balance_b", "flicker_phase", "encoded_gain_r", "encoded_gain_g",
+          "encoded_gain_b", "encoded_offset_r", "encoded_offset_g", "encoded_offset_b"}) {
+        gains.header.emplace_back(name);
+    }
     for (std::size_t i = 0; i < result.gains.size(); ++i) {
         const FrameGains& g = result.gains[i];
         std::vector<std::string> row{std::to_string(i), number(g.unit)};
-        for (const double v : g.linear) row.push_back(number(v));
-        row.push_back(number(g.exposure));
-        row.push_back(number(g.light));
-        for (const double v : g.encoded_gain) row.push_back(number(v));
-        for (const double v : g.encoded_offset) row.push_back(number(v));
+        const auto add = [&](std::span<const double> values) {
+            for (const double v : values) row.push_back(number(v));
+        };
+        add(g.linear);
+        add(std::array{g.exposure, g.light, g.jitter});
+        add(g.balance);
+        add(std::array{g.flicker_phase});
+        add(g.encoded_gain);
+        add(g.encoded_offset);
         gains.rows.push_back(std::move(row));
     }
     write_csv(to / "gains.csv", gains);
 
-    const Scene::Affine m = Scene(spec_, grid_).specimen_from_frame();
+    const Scene::Affine& m = from_frame_;
     const auto file = [](const char* name, const char* meaning, Json shape) {
         return Json{{"file", name}, {"meaning", meaning}, {"shape", std::move(shape)}};
     };
@@ -121,8 +122,13 @@ void TruthWriter::commit(const SimulationResult& result, const std::string& reco
         {"seed", spec_.seed},
         {"frames", spec_.frames.count},
         {"units", spec_.frames.units},
+        {"flicker", {{"amplitude", spec_.camera.flicker}, {"bands", spec_.camera.flicker_bands}}},
         {"arrays",
-         {file("susceptibility.npy", "rho as the camera sees it, mean 1 over the cells", frame),
+         {file("light.npy",
+               "lamp times brushing on the specimen: linear light is this times the "
+               "color of the cells, plus the sheen",
+               frame),
+          file("susceptibility.npy", "rho as the camera sees it, mean 1 over the cells", frame),
           file("susceptibility.exr", "the same", frame),
           file("wetness.npy", "wetness as the camera sees it, mean 1 over the cells", frame),
           file("specimen.npy", "255 where the specimen fills at least half of a pixel", frame),
@@ -131,7 +137,7 @@ void TruthWriter::commit(const SimulationResult& result, const std::string& reco
           file("cells/units.npy", "times of the states below, accelerated units",
                Json{units_.size()}),
           file("cells/susceptibility.npy", "rho", cell), file("cells/wetness.npy", "wetness", cell),
-          file("cells/coverage.npy", "theta, share of a cell that has a film, 0 to 1", cell_t),
+          file("cells/coverage.npy", "theta, share of a cell whose film grows, 0 to 1", cell_t),
           file("cells/film_nm.npy", "thickness of the oxide, nm", cell_t),
           file("cells/patina_um.npy", "thickness of the green layer, um", cell_t),
           file("gains.csv", "what multiplied linear light and shifted encoded values, per frame",

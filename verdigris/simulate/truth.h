@@ -14,6 +14,7 @@ namespace verdigris {
 
 /// Into a folder, which appears whole on commit():
 ///   susceptibility.npy/.exr   rho as the camera sees it, (H, W) float32, 0 off the specimen
+///   light.npy                 lamp times brushing on the specimen, the same shape
 ///   wetness.npy               the same of the wetness
 ///   specimen.npy, mount.npy, reference.npy   masks, (H, W) uint8, 255 inside
 ///   cells/*.npy               on the cells: susceptibility, wetness (rows, columns);
@@ -37,6 +38,7 @@ class TruthWriter {
     std::unique_ptr<NpyWriter> coverage_, film_, patina_;
     std::vector<double> units_;
     CellGrid grid_;
+    Scene::Affine from_frame_{};
 };
 
 }  // namespace verdigris
