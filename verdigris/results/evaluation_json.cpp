@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/results/evaluation_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "verdigris/error.h"
+
+namespace verdigris {
+namespace {
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kRecordFormat = "verdigris-evaluation-record/1";
+
+Json number(double v) {
+    return std::isfinite(v) ? Json(v) : Json(nullptr);
+}
+Json numbers(const std::vector<double>& values) {
+    Json list = Json::array();
+    for (const double v : values) list.push_back(number(v));
+    return list;
+}
+Json interval(const std::optional<Interval>& i) {
+    return i ? Json{number(i->low), number(i->high)} : Json(nullptr);
+}
+Json range(SampleRange r) {
+    return Json{r.begin, r.end};
+}
+SampleRange range_from(const Json& json) {
+    return {json.at(0).get<int>(), json.at(1).get<int>()};
+}
+double mean(const ErrorTable& t) {
+    return t.empty() || t.windows == 0 ? std::nan("") : overall_mean(t);
+}
+
+Json scores_json(const Direction& d, const EntrantScores& s, const EntrantVerdict* v) {
+    const bool any = !d.starts.empty();
+    Json out = {
+        {"trained", s.trained},
+        {"error",
+         {{"mean", number(mean(s.foreground))},
+          {"per_horizon", any ? numbers(horizon_means(s.foreground)) : Json()}}},
+        {"specimen_error", number(mean(s.specimen))},
+        {"delta_e", number(mean(s.delta_e))},
+        {"bias", {number(mean(s.bias[0])), number(mean(s.bias[1])), number(mean(s.bias[2]))}}};
+    if (!v) return out;
+    out["gain"] = number(v->gain);
+    out["gain_per_horizon"] = any ? numbers(horizon_gains(d, s)) : Json();
+    out["intervals"] = {{"block", interval(v->block)},
+                        {"moving_block", interval(v->moving_block)},
+                        {"naive", interval(v->naive)}};
+    out["blocks"] = Json::array();
+    for (const BlockGain& b : v->blocks)
+        out["blocks"].push_back({{"first_start", b.first_start},
+                                 {"last_start", b.last_start},
+                                 {"windows", b.windows},
+                                 {"gain", number(b.value)}});
+    for (const EntrantVerdict::Named& n : v->named)
+        out["named_blocks"][n.block.name] = {{"units", {n.block.begin, n.block.end}},
+                                             {"windows", n.windows},
+                                             {"gain", number(n.gain)}};
+    out["verdict"] = v->sentence;
+    return out;
+}
+
+}  // namespace
+
+Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& list) {
+    const EvaluationProtocol& p = evaluation.protocol;
+    Json out = {{"protocol",
+                 {{"context", p.context},
+                  {"horizons", p.horizons},
+                  {"stride", p.stride},
+                  {"area", to_string(p.area)},
+                  {"single", p.single}}},
+                {"directions", Json::array()}};
+    for (const DirectionVerdict& verdict : list) {
+        const Direction& d = *verdict.direction;
+        Json direction = {{"label", d.label()},
+                          {"held_out", d.held_out},
+                          {"sources", d.sources},
+                          {"windows", d.starts.size()},
+                          {"windows_skipped", d.skipped.size()},
+                          {"windows_independent", d.plan.independent},
+                          {"noise", number(d.sigma)},
+                          {"tau", number(d.tau)},
+                          {"forecasters", Json::object()}};
+        direction["forecasters"][d.persistence().name] = scores_json(d, d.persistence(), nullptr);
+        for (std::size_t i = 1; i < d.entrants.size(); ++i)
+            direction["forecasters"][d.entrants[i].name] =
+                scores_json(d, d.entrants[i], &verdict.entrants[i - 1]);
+        out["directions"].push_back(std::move(direction));
+    }
+    out["notes"] = Json::array();
+    for (const Status& s : evaluation.notes)
+        out["notes"].push_back(
+            {{"id", s.id}, {"severity", to_string(s.severity)}, {"sentence", s.sentence}});
+    return out;
+}
+
+Json json_of(const EvaluationRecord& record) {
+    Json out = {{"format", kRecordFormat},     {"span", record.span},
+                {"embargo", record.embargo},   {"single", record.single},
+                {"recordings", Json::array()}, {"directions", Json::array()}};
+    for (const RecordingRecord& r : record.recordings)
+        out["recordings"].push_back({{"name", r.name},
+                                     {"sha256", r.sha256},
+                                     {"samples", r.samples},
+                                     {"usable", range(r.usable)},
+                                     {"frame_hashes", r.frame_hashes}});
+    for (const DirectionRecord& d : record.directions) {
+        Json uses = Json::array();
+        for (const SampleUse& u : d.uses)
+            uses.push_back({{"role", to_string(u.role)},
+                            {"recording", u.recording},
+                            {"allowed", range(u.allowed)},
+                            {"starts", u.starts},
+                            {"samples", u.samples},
+                            {"planned", u.planned},
+                            {"skipped", u.skipped}});
+        out["directions"].push_back(
+            {{"held_out", d.held_out}, {"trained", d.trained}, {"uses", std::move(uses)}});
+    }
+    return out;
+}
+
+EvaluationRecord record_from(const Json& json, const std::string& where) {
+    try {
+        if (json.at("format") != kRecordFormat)
+            throw Error(ErrorCode::bad_input, "is a record of another version", where);
+        EvaluationRecord record;
+        record.span = json.at("span");
+        record.embargo = json.at("embargo");
+        record.single = json.at("single");
+        for (const Json& r : json.at("recordings"))
+            record.recordings.push_back({r.at("name"), r.at("sha256"), r.at("samples"),
+                                         range_from(r.at("usable")), r.at("frame_hashes")});
+        for (const Json& d : json.at("directions")) {
+            DirectionRecord direction{d.at("held_out"), d.at("trained"), {}};
+            for (const Json& u : d.at("uses")) {
+                const std::string role = u.at("role");
+                SampleUse use;
+                use.role = role == "train"        ? SampleRole::train
+                           : role == "validation" ? SampleRole::validation
+                                                  : SampleRole::test;
+                if (to_string(use.role) != role)
+                    throw Error(ErrorCode::bad_input, "has a use with no role we know", where);
+                use.recording = u.at("recording");
+                use.allowed = range_from(u.at("allowed"));
+                use.starts = u.at("starts").get<std::vector<int>>();
+                use.samples = u.at("samples").get<std::vector<int>>();
+                use.planned = u.at("planned");
+                use.skipped = u.at("skipped");
+                direction.uses.push_back(std::move(use));
+            }
+            record.directions.push_back(std::move(direction));
+        }
+        return record;
+    } catch (const nlohmann::json::exception&) {
+        throw Error(ErrorCode::bad_input, "is not a record of an evaluation", where);
+    }
+}
+
+}  // namespace verdigris

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// An evaluation as a report: the verdict in sentences, the tables and figures it follows from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "verdigris/evaluate/bootstrap.h"
+#include "verdigris/evaluate/evaluate.h"
+#include "verdigris/report/page.h"
+#include "verdigris/results/protocol_file.h"
+
+namespace verdigris {
+
+/// One forecaster on one held-out recording, with what the windows resolve. Computed once: the
+/// bootstraps cost ~0.1 s each.
+struct EntrantVerdict {
+    std::string name;
+    double error = 0, persistence = 0;  ///< mean foreground MSE
+    double gain = 0;
+    std::optional<Interval> naive, block, moving_block;
+    std::vector<BlockGain> blocks;
+    struct Named {
+        NamedBlock block;
+        int windows = 0;
+        double gain = 0;  ///< NaN if no window starts there
+    };
+    std::vector<Named> named;
+    /// In words, with its numbers: better or worse, by how much, how sure.
+    std::string sentence;
+};
+struct DirectionVerdict {
+    const Direction* direction = nullptr;
+    std::vector<EntrantVerdict> entrants;  ///< persistence left out
+};
+
+/// `evaluation` must outlive the result. Blocks of recordings that were not evaluated are an
+/// Error{usage}.
+std::vector<DirectionVerdict> verdicts(const Evaluation& evaluation,
+                                       const std::vector<NamedBlock>& blocks = {});
+
+/// Sections: verdict, audit, errors, intervals, blocks, horizons, protocol.
+Report evaluation_report(const Evaluation& evaluation,
+                         const std::vector<DirectionVerdict>& verdicts);
+
+/// Every error per forecaster, window and horizon: all else can be computed again from it.
+Table window_errors(const Evaluation& evaluation);
+
+/// The tables, apart from the page.
+Table error_table(const Evaluation& evaluation);
+Table interval_table(const std::vector<DirectionVerdict>& verdicts);
+Table block_table(const std::vector<DirectionVerdict>& verdicts);
+Table window_count_table(const Evaluation& evaluation);
+Figure horizon_figure(const Evaluation& evaluation);
+Figure gain_figure(const std::vector<DirectionVerdict>& verdicts);
+
+}  // namespace verdigris

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// What an evaluation says, for people and for programs: tables, figures, sentences, JSON.
+// Path: evaluate, report -> [results].
+#pragma once
+
+#include "verdigris/results/evaluation_json.h"
+#include "verdigris/results/evaluation_report.h"
+#include "verdigris/results/protocol_file.h"
