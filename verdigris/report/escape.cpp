@@ -49,6 +49,10 @@ bool is_control(char32_t c) {
     return c < 0x20 || (c >= 0x7f && c < 0xa0) || c == 0x2028 || c == 0x2029;
 }
 
+char32_t visible(char32_t c) {
+    return is_control(c) ? U' ' : c;
+}
+
 const char* latex_of_ascii(char32_t c) {
     switch (c) {
         case '\\':
@@ -222,9 +226,20 @@ std::string one_line(std::string_view text) {
     std::string out;
     while (!text.empty()) {
         const char32_t c = take_character(text);
-        append_utf8(out, is_control(c) ? U' ' : c);
+        append_utf8(out, visible(c));
     }
     return out;
+}
+
+std::string first_characters(std::string_view text, int count) {
+    std::string out;
+    for (; count > 0 && !text.empty(); --count) append_utf8(out, visible(take_character(text)));
+    return out;
+}
+
+std::string last_characters(std::string_view text, int count) {
+    for (int skip = character_count(text) - count; skip > 0; --skip) take_character(text);
+    return one_line(text);
 }
 
 }  // namespace verdigris

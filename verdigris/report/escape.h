@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Text of unknown origin (file names, titles; UTF-8 as in [RFC3629]) inside other languages, where
-// some characters mean
-// something.
+// some characters mean something.
 #pragma once
 
 #include <string>
@@ -23,6 +22,10 @@ bool is_plain_id(std::string_view id);
 
 /// Number of characters: a width in a terminal, for scripts without double-width characters.
 int character_count(std::string_view text);
+
+/// The first or the last `count` characters, on one line.
+std::string first_characters(std::string_view text, int count);
+std::string last_characters(std::string_view text, int count);
 
 /// `text` as valid UTF-8 on one line: what is no UTF-8 becomes U+FFFD, control characters a space.
 std::string one_line(std::string_view text);
