@@ -23,11 +23,33 @@ constexpr int kWideWidth = 640, kNarrowWidth = 300, kHeight = 260;  // px; the p
 constexpr const char* kListener = "listener";
 constexpr const char* kPick = "picked";  // the selection of the legend
 
-// Field "series" on one channel: looks first, then reference lines, each with its own value. Dashes
-// are not `listed`: the legend would draw its marks with dashed outlines.
+// Each name of the legend with its own value.
 template <class OfLook>
-Json series_channel(const FigureLayout& layout, OfLook of_look, const Json& of_reference,
-                    bool listed = true) {
+Json by_name(const FigureLayout& layout, OfLook of_look, const Json& of_reference) {
+    Json values = Json::object();
+    for (const NamedLook& look : layout.looks) values[one_line(look.name)] = of_look(look);
+    for (const std::string& name : layout.references) values[one_line(name)] = of_reference;
+    return values;
+}
+
+// How the entries of the legend look, for the page's script: Vega-Lite has no words for entries
+// that differ in kind. Marks and bars are filled, without an outline that dashes would notch.
+Json legend_looks(const FigureLayout& layout) {
+    const auto filled = [](const NamedLook& l) { return l.marks || l.bars || !l.line; };
+    const auto shape = [](const NamedLook& l) {
+        if (l.marks) return std::string(l.look.shape.vega);
+        return std::string(l.line ? "stroke" : "square");
+    };
+    return {{"shape", by_name(layout, shape, "stroke")},
+            {"size", by_name(
+                         layout, [&](const auto& l) { return filled(l) ? 90 : 400; }, 400)},
+            {"strokeWidth", by_name(
+                                layout, [&](const auto& l) { return filled(l) ? 0 : 2; }, 1.5)}};
+}
+
+// Field "series" on one channel: looks first, then reference lines, each with its own value.
+template <class OfLook>
+Json series_channel(const FigureLayout& layout, OfLook of_look, const Json& of_reference) {
     Json domain = Json::array(), range = Json::array();
     for (const NamedLook& look : layout.looks) {
         domain.push_back(one_line(look.name));
@@ -41,12 +63,10 @@ Json series_channel(const FigureLayout& layout, OfLook of_look, const Json& of_r
                 {"type", "nominal"},
                 {"scale", {{"domain", domain}, {"range", range}}},
                 {"legend", nullptr}};
-    if (layout.has_legend() && listed) {
-        out["legend"] = {{"title", nullptr},
-                         {"orient", "top"},
-                         {"columns", 0},
-                         {"symbolOpacity", 1},
-                         {"labelLimit", 300}};
+    // The same for all channels: then they are one legend.
+    if (layout.has_legend()) {
+        out["legend"] = {
+            {"title", nullptr}, {"orient", "top"}, {"symbolOpacity", 1}, {"labelLimit", 300}};
     }
     return out;
 }
@@ -57,19 +77,18 @@ Json color_channel(const FigureLayout& layout) {
         std::string(kTextInk.light));
 }
 Json dash_channel(const FigureLayout& layout) {
-    // In widths of a line, which are 2 px here.
     const auto pixels = [](std::span<const double> dash) {
         Json out = Json::array();
-        for (const double d : dash) out.push_back(d * 1.5);
+        for (const double d : dash) out.push_back(d * 1.5);  // px for widths of a line of 2 px
         if (out.empty()) out = {1, 0};
         return out;
     };
     return series_channel(
-        layout, [&](const NamedLook& l) { return pixels(l.look.dash); }, Json{6, 3}, false);
+        layout, [&](const NamedLook& l) { return pixels(l.look.dash); }, Json{6, 3});
 }
 Json shape_channel(const FigureLayout& layout) {
     return series_channel(
-        layout, [](const NamedLook& l) { return std::string(l.look.shape.vega); }, "stroke");
+        layout, [](const NamedLook& l) { return std::string(l.look.shape.vega); }, "circle");
 }
 
 Json axis_channel(const char* field, const FigureAxis& axis, const AxisSpan& span) {
@@ -86,7 +105,8 @@ Json axis_channel(const char* field, const FigureAxis& axis, const AxisSpan& spa
             longest = std::max(longest, character_count(axis.categories[i]));
         }
         label = names.dump() + "[datum.value]";  // JSON strings are string literals there, too
-        const bool crowded = longest * int(axis.categories.size()) > 50;
+        // Level only where they fit on a telephone.
+        const bool crowded = longest * int(axis.categories.size()) > 34;
         out_axis["labelAngle"] = crowded ? -35 : 0;
         out_axis["labelLimit"] = 160;
         out_axis["labelOverlap"] = false;
@@ -240,8 +260,8 @@ class PanelSpec {
     }
     void add_points(const Json& data, bool visible) {
         Json e = encoding(true);
-        e["shape"] = shape_channel(layout_);
         if (visible) {
+            e["shape"] = shape_channel(layout_);
             fade(e, 1);
         } else {
             e["opacity"] = {{"value", 0}};
@@ -297,7 +317,7 @@ std::string vega_lite_spec(const Figure& figure) {
     Json out = {
         {"$schema", "https://vega.github.io/schema/vega-lite/v6.json"},
         {"description", one_line(figure.title + ". " + figure.caption)},
-        {"usermeta", {{"inks", dark_twins(layout)}}},
+        {"usermeta", {{"inks", dark_twins(layout)}, {"legend", legend_looks(layout)}}},
         {"columns", layout.columns},
         {"concat", std::move(panels)},
         {"resolve",
