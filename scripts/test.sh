@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Installs, builds and runs every test: the checks of the house, each room's tests, the program on
-# good and bad input, the glTF validator, the viewer in a real browser; then the rooms, and the
+# good and bad input, the glTF validator, the viewer and a report in a real browser; then the rooms, and the
 # program on bad input, again under the address and undefined-behavior sanitizers.
 #   scripts/test.sh          all
 #   scripts/test.sh --quick  without the sanitizers
 # scripts/tidy.sh (clang-tidy) is separate: it takes long and finds taste more often than mistakes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/install_packages.sh build viewer test
+scripts/install_packages.sh build report viewer test
 scripts/build.sh ci
 ctest --preset ci -j2
 if [ "${1:-}" != --quick ]; then

@@ -6,16 +6,14 @@ extern "C" {
 }
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
-
 #include <hwy/highway.h>
-#include <cstdlib>
 #include <filesystem>
-#include <sstream>
 #include <thread>
 
 #include "commands.h"
 #include "verdigris/deliver/deliver.h"
+#include "verdigris/report/child_process.h"
+#include "verdigris/report/page.h"
 
 namespace verdigris::cli {
 namespace fs = std::filesystem;
@@ -23,16 +21,6 @@ namespace {
 
 std::string version_text(unsigned v) {
     return fmt::format("{}.{}.{}", v >> 16, (v >> 8) & 255, v & 255);
-}
-
-std::string find_program(const std::string& name) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const fs::path file = fs::path(folder) / name;
-        if (access(file.c_str(), X_OK) == 0) return file.string();
-    }
-    return {};
 }
 
 void run(Session& session) {
@@ -78,17 +66,24 @@ void run(Session& session) {
                        ? "built in"
                        : "missing: `age` writes no viewer.html; build with node >= 18 and npm");
 
+    out["report_interactive"] = report_is_interactive();
+    line("reports", report_is_interactive()
+                        ? "with interactive charts"
+                        : "without interactive charts: built without node >= 18 and npm");
+
     struct Program {
         const char *name, *use, *cost;
     };
     Json programs = Json::object();
     for (const Program& p :
-         {Program{"xdg-open", "opens the viewer", "`view` only prints the path; open it yourself"},
+         {Program{"gnuplot", "draws the figures of a report",
+                  "figures are left out, tables are written; install gnuplot-nox"},
+          Program{"xdg-open", "opens the viewer", "`view` only prints the path; open it yourself"},
           Program{"chromium", "one browser that shows the viewer", "any other browser will do"},
           Program{"blender", "imports aged.glb and the textures",
                   "nothing: files are made without it"},
           Program{"ffmpeg", "makes test clips", "only some tests are skipped"}}) {
-        const std::string path = find_program(p.name);
+        const fs::path path = find_program(p.name);
         programs[p.name] = !path.empty();
         line(p.name, path.empty() ? fmt::format("not found ({}); without it: {}", p.use, p.cost)
                                   : fmt::format("found ({})", p.use));

@@ -10,7 +10,8 @@ const candidates = [process.env.VERDIGRIS_CHROMIUM, "/usr/bin/chromium", "/usr/b
   "/usr/bin/google-chrome"].filter(Boolean);
 export const executable = candidates.find((p) => existsSync(p));
 
-export async function withBrowser(work) {
+/** `options`: of the context, on top of these: {javaScriptEnabled: false}. */
+export async function withBrowser(work, options = {}) {
   const profile = await mkdtemp(path.join(tmpdir(), "verdigris-browser-"));
   const context = await chromium.launchPersistentContext(profile, {
     executablePath: executable, headless: true,
@@ -19,6 +20,7 @@ export async function withBrowser(work) {
     args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
       "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader",
       "--allow-file-access-from-files"],
+    ...options,
   });
   try {
     return await work(context);
@@ -50,7 +52,7 @@ export async function openPage(context, file, { stage = true } = {}) {
     if (!/^(file|data|blob):/.test(r.url())) requests.push(r.url());
   });
   await page.goto(`file://${path.resolve(file)}`);
-  await page.evaluate(() => window.verdigris.ready.catch(() => undefined));
+  await page.evaluate(() => window.verdigris?.ready.catch(() => undefined));
   return { page, complaints, requests };
 }
 

@@ -9,8 +9,9 @@
 #include <functional>
 #include <memory>
 #include <new>
-#include <string_view>
 #include <vector>
+
+#include "verdigris/files/base64.h"
 
 namespace verdigris {
 namespace {
@@ -100,24 +101,6 @@ Blob encode_blob(ImageView<const SrgbF> image) {
     return encode(
         image.width(), image.height(), 3,
         [&](int y) { return values.data() + samples * std::size_t(y); }, quantization_of(values));
-}
-
-std::string base64(std::span<const std::byte> bytes) {
-    static constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t group = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            group = group << 8 | (k < left ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += k <= left ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-        }
-    }
-    return text;
 }
 
 }  // namespace verdigris

@@ -34,7 +34,4 @@ Blob encode_blob(ImageView<const float> image, Quantization quantization);
 /// The smallest step that spans the values. Exposed for images that must share it.
 Quantization quantization_of(std::span<const float> values);
 
-/// RFC 4648, with padding.
-std::string base64(std::span<const std::byte> bytes);
-
 }  // namespace verdigris

@@ -16,6 +16,7 @@
 #include "verdigris/deliver/source_type.h"
 #include "verdigris/deliver/status_json.h"
 #include "verdigris/deliver/viewer_recipe.h"
+#include "verdigris/files/base64.h"
 #include "verdigris/pixels/parallel_rows.h"
 
 namespace verdigris {

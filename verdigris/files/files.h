@@ -4,6 +4,7 @@
 #pragma once
 
 #include "verdigris/files/atomic_file.h"
+#include "verdigris/files/base64.h"
 #include "verdigris/files/csv.h"
 #include "verdigris/files/image_file.h"
 #include "verdigris/files/npy.h"

@@ -1,0 +1,11 @@
+# index.html without its interactive part, for pages that hold no script at all.
+file(READ "${SOURCE}/index.html" page)
+file(READ "${SOURCE}/styles.css" style)
+string(REGEX REPLACE "<!--interactive-->.*<!--/interactive-->\n" "" page "${page}")
+string(REPLACE "@@BANNER@@\n" "" page "${page}")
+string(REPLACE "@@STYLE@@" "${style}" page "${page}")
+string(REPLACE "@@POLICY@@" "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'" page "${page}")
+if(page MATCHES "<script" OR NOT page MATCHES "@@VERDIGRIS_BODY@@")
+  message(FATAL_ERROR "index.html does not have the parts that plain.cmake expects")
+endif()
+file(WRITE "${OUTPUT}" "${page}")
