@@ -16,6 +16,8 @@ void add_materialize(CLI::App& app, Session& session);
 void add_deliver(CLI::App& app, Session& session);
 void add_view(CLI::App& app, Session& session);
 void add_simulate(CLI::App& app, Session& session);
+void add_evaluate(CLI::App& app, Session& session);
+void add_audit(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
 
 }  // namespace verdigris::cli

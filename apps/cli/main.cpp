@@ -56,6 +56,8 @@ int main(int argc, char** argv) {
     cli::add_deliver(app, session);
     cli::add_view(app, session);
     cli::add_simulate(app, session);
+    cli::add_evaluate(app, session);
+    cli::add_audit(app, session);
     cli::add_doctor(app, session);
     try {
         app.parse(argc, argv);

@@ -229,7 +229,11 @@ Figure horizon_figure(const Evaluation& evaluation) {
         }
         figure.panels.push_back(std::move(panel));
     }
-    if (figure.panels.empty()) figure.panels.push_back({.title = "no window was scored"});
+    if (figure.panels.empty()) {
+        FigurePanel empty;
+        empty.title = "no window was scored";
+        figure.panels.push_back(std::move(empty));
+    }
     return figure;
 }
 

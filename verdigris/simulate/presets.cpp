@@ -60,7 +60,7 @@ SimulationSpec air() {
     s.susceptibility.coarse = 0.3;
     s.susceptibility.drip = 0.25;
     s.oxide.initial_nm = 7.5;               // tuned
-    s.oxide.growth.parabolic_rate = 0.765;  // tuned
+    s.oxide.growth.parabolic_rate = 0.72;  // tuned
     s.oxide.chemistry.fresh = 0.6;
     s.environment.noise = 0.3;
     s.environment.diurnal = 0.2;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Forecasters against doing nothing, on recordings that nothing was learned from.
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "judged.h"
+#include "verdigris/files/atomic_file.h"
+#include "verdigris/report/table_formats.h"
+#include "verdigris/results/results.h"
+
+namespace verdigris::cli {
+namespace {
+
+struct Arguments {
+    JudgeArguments judge;
+    std::string forecasters = "persistence,affinergb,auto", blocks;
+};
+
+void run(Session& session, const Arguments& a) {
+    check_results_folder(a.judge.output, session.force);
+    const std::vector<Entrant> entrants = entrants_from(a.forecasters);
+    const std::vector<NamedBlock> blocks =
+        a.blocks.empty() ? std::vector<NamedBlock>() : read_blocks(a.blocks);
+    const std::vector<Observation> observations = observe_all(session, a.judge);
+    const EvaluationProtocol protocol = protocol_for(session, a.judge, observations);
+    const Evaluation evaluation = evaluate(protocol, observations, entrants, session.progress());
+    const std::vector<DirectionVerdict> list = verdicts(evaluation, blocks);
+    Report report = evaluation_report(evaluation, list);
+    report.footer = fmt::format("verdigris {}", VERDIGRIS_VERSION);
+    const Json json = json_of(evaluation, list);
+    deliver_results(session, a.judge.output, report, {window_errors(evaluation)},
+                    [&](const std::filesystem::path& folder) {
+                        write_file(folder / kEvaluationFile, json.dump(2) + "\n");
+                        write_file(folder / kRecordFile, json_of(evaluation.record).dump() + "\n");
+                        write_file(folder / kProtocolFile, protocol_text(protocol));
+                    });
+    session.say("");
+    session.say(table_plain(error_table(evaluation)));
+    for (const DirectionVerdict& d : list)
+        for (const EntrantVerdict& e : d.entrants) session.say(e.sentence);
+    for (const Status& s : evaluation.notes) session.tell(s);
+    session.result(json);
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, Session& session) {
+    auto a = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand(
+        "evaluate", "Judge forecasters against doing nothing, on recordings held out");
+    a->judge.add(*command, true);
+    command
+        ->add_option("--forecasters", a->forecasters,
+                     "Names with commas between: auto, affinergb, affinergb-per-channel-1 ... (the "
+                     "paper's, unregularized); affinergb-ridge, as `age` has it")
+        ->capture_default_str();
+    command
+        ->add_option("--blocks", a->blocks,
+                     "TOML with spans of each recording to report gains of: [recording] and "
+                     "lines name = [begin, end] in units")
+        ->check(CLI::ExistingFile);
+    command->add_flag("--force", session.force, "Write into a folder with other files");
+    session.add_options(*command);
+    command->callback([a, &session] { session.action = [a](Session& s) { run(s, *a); }; });
+}
+
+}  // namespace verdigris::cli

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "judged.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "arguments.h"
+#include "stages.h"
+#include "verdigris/evaluate/characterize.h"
+#include "verdigris/forecast/choose.h"
+#include "verdigris/results/protocol_file.h"
+
+namespace verdigris::cli {
+namespace fs = std::filesystem;
+namespace {
+
+/// A file loses its ending; two recordings of one name are told apart.
+std::string judged_name(const fs::path& input, std::set<std::string>& taken) {
+    const std::string whole = input_name(input);
+    std::error_code error;
+    const std::string stem =
+        fs::is_directory(input, error) ? whole : fs::path(whole).stem().string();
+    std::string name = stem;
+    for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{} ({})", stem, i);
+    return name;
+}
+
+}  // namespace
+
+void JudgeArguments::add(CLI::App& command, bool several) {
+    CLI::Option* inputs = command.add_option(
+        "RECORDING", recordings, "Videos, or folders of photographs; each is held out in turn");
+    inputs->required();
+    if (!several) inputs->expected(1);
+    command.add_option("-o,--out", output, "Result folder")->required();
+    command.add_option("--protocol", protocol, "TOML file with the rules (docs/PROTOCOL.md)")
+        ->check(CLI::ExistingFile);
+    command.add_option("--size", size, "Side of the samples in pixels (128, as the paper)")
+        ->check(CLI::Range(16, 1024));
+    command.add_option("--crop", crop, "auto, none, or x,y,w,h: of every recording");
+    command.add_option("--stride", stride, "Samples per unit, of recordings too short for a grid")
+        ->check(CLI::Range(1, 1000));
+    command.add_option("--context", context, "Observed frames n (5)")->check(CLI::Range(1, 1000));
+    command.add_option("--horizons", horizons, "Forecast frames K (10)")
+        ->check(CLI::Range(1, 1000));
+    command
+        .add_option("--windows", windows, "At most so many windows per recording, evenly spaced")
+        ->check(CLI::Range(1, 1000000));
+    command.add_option("--area", area, "frame (all pixels, as the paper) or specimen")
+        ->check(CLI::IsMember({"frame", "specimen"}));
+    command.add_option("--tau", tau, "Foreground threshold (default: 2.40 times the noise)")
+        ->check(CLI::Range(1e-6, 1.0));
+    command.add_flag("--single", single,
+                     "One recording by itself: nothing is held out, and the results say so");
+}
+
+std::vector<Observation> observe_all(Session& session, const JudgeArguments& a) {
+    ObserveArguments observe_arguments;
+    observe_arguments.crop = a.crop;
+    ObserveOptions options = observe_arguments.options();
+    options.size = a.size;
+    options.keep = Keep::every_sample;
+    std::vector<Observation> observations;
+    std::set<std::string> taken;
+    for (const std::string& input : a.recordings) {
+        const Recording recording = open_recording(input);
+        Observation observation = observe(recording, options, session.progress());
+        observation.source_name = judged_name(input, taken);
+        observation.source_sha256 = recording.sha256(session.progress());
+        session.say(fmt::format("observed  {}: {} samples, {} per unit, noise {:.3f} %",
+                                observation.source_name, observation.store->count(),
+                                observation.axis.samples_per_unit, 100 * observation.noise.sigma));
+        observations.push_back(std::move(observation));
+    }
+    return observations;
+}
+
+EvaluationProtocol protocol_for(Session& session, const JudgeArguments& a,
+                                const std::vector<Observation>& observations) {
+    EvaluationProtocol protocol;
+    if (!a.protocol.empty()) {
+        protocol = read_protocol(a.protocol);
+    } else {
+        int per_unit = kMaxSamplesPerUnit;
+        bool whole = true;
+        for (const Observation& o : observations) {
+            per_unit = std::min(per_unit, o.axis.samples_per_unit);
+            whole = whole && o.store->count() == protocol.grid;
+        }
+        if (!whole || a.stride) {
+            protocol = short_recording_protocol(a.stride.value_or(per_unit));
+            session.say(
+                fmt::format("protocol  short recordings: nothing trimmed, {} samples per "
+                            "unit",
+                            protocol.stride));
+        } else {
+            session.say("protocol  the paper's: 984 samples, of which 950 count, 10 per unit");
+        }
+    }
+    if (a.stride) protocol.stride = *a.stride;
+    if (a.context) protocol.context = *a.context;
+    if (a.horizons) protocol.horizons = *a.horizons;
+    if (a.windows) protocol.max_windows = *a.windows;
+    if (a.area == "specimen") protocol.area = EvaluatedArea::specimen;
+    if (a.area == "frame") protocol.area = EvaluatedArea::frame;
+    if (a.tau > 0) protocol.tau = a.tau;
+    protocol.single = protocol.single || a.single;
+    check_protocol(protocol);
+    return protocol;
+}
+
+std::vector<Entrant> entrants_from(const std::string& names) {
+    std::vector<Entrant> entrants;
+    std::size_t start = 0;
+    while (start <= names.size()) {
+        const std::size_t end = std::min(names.find(',', start), names.size());
+        const std::string name = names.substr(start, end - start);
+        start = end + 1;
+        if (name.ends_with(".safetensors")) {
+            throw Error(
+                ErrorCode::usage,
+                fmt::format("{} is a trained forecaster, which this build cannot run", name));
+        }
+        if (name == "persistence") continue;  // always there
+        ChooseOptions paper;
+        paper.ridge_k = 0;
+        paper.clamp = false;
+        const std::string_view kRidge = "-ridge";
+        const bool product = name == "auto" || name.ends_with(kRidge);
+        const std::string base =
+            name.ends_with(kRidge) ? name.substr(0, name.size() - kRidge.size()) : name;
+        Forecaster forecaster = forecaster_by_name(base, product ? ChooseOptions() : paper);
+        Entrant entrant = training_free(std::move(forecaster));
+        entrant.name = name;
+        entrants.push_back(std::move(entrant));
+    }
+    return entrants;
+}
+
+void check_results_folder(const fs::path& output, bool force) {
+    std::error_code error;
+    if (!fs::exists(output, error) || force) return;
+    if (!fs::is_directory(output, error))
+        throw Error(ErrorCode::failed, "is a file, not a folder; choose another with -o",
+                    output.string());
+    for (const fs::directory_entry& entry : fs::directory_iterator(output, error)) {
+        const std::string name = entry.path().filename().string();
+        static const std::set<std::string> kOurs{"report.html",     "tables",        "figures",
+                                                 kEvaluationFile,   kRecordFile,     kProtocolFile,
+                                                 "drift_gains.csv", "corrected.json"};
+        if (kOurs.count(name) == 0 && !name.starts_with(".partial-"))
+            throw Error(ErrorCode::refused,
+                        fmt::format("holds other files ('{}'); choose an empty folder or use "
+                                    "--force",
+                                    name),
+                        output.string());
+    }
+}
+
+void deliver_results(Session& session, const fs::path& output, const Report& report,
+                     const std::vector<Table>& data,
+                     const std::function<void(const fs::path&)>& more) {
+    StagedFolder staged(output);
+    const WrittenResults written = write_results(report, staged.path(), data, session.progress());
+    if (more) more(staged.path());
+    staged.commit("report.html");
+    for (const Status& s : written.statuses) session.tell(s);
+    session.say("");
+    session.say(fmt::format("Read      {}", (output / "report.html").string()));
+    session.say(fmt::format("Tables    {}/   (CSV, JSON, LaTeX)", (output / "tables").string()));
+}
+
+}  // namespace verdigris::cli

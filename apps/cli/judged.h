@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What `evaluate`, `characterize` and `drift` share: recordings observed for judging, the protocol
+// that fits them, and the folder the results go to.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "session.h"
+#include "verdigris/evaluate/evaluate.h"
+#include "verdigris/files/staged_folder.h"
+#include "verdigris/observe/observe.h"
+#include "verdigris/report/page.h"
+#include "verdigris/report/write_results.h"
+
+namespace verdigris::cli {
+
+struct JudgeArguments {
+    std::vector<std::string> recordings;
+    std::string output, protocol, area, crop = "auto";
+    int size = 128;
+    std::optional<int> stride, context, horizons, windows;
+    double tau = 0;  ///< 0: from the noise
+    bool single = false;
+
+    /// `several`: takes any number of recordings.
+    void add(CLI::App& command, bool several);
+};
+
+/// Every sample of each recording, at the size asked for, named after its file.
+std::vector<Observation> observe_all(Session& session, const JudgeArguments& arguments);
+
+/// The protocol given, or the paper's where every recording has its 984 samples, else one for short
+/// recordings; then single options. Says which.
+EvaluationProtocol protocol_for(Session& session, const JudgeArguments& arguments,
+                                const std::vector<Observation>& observations);
+
+/// `auto`, `persistence`, `affinergb...` as training-free entrants. The affine family is the
+/// paper's: no ridge, no clamp; "-ridge" behind a name gives it as the product has it.
+/// Throws Error{usage} for a name that is none.
+std::vector<Entrant> entrants_from(const std::string& names);
+
+/// Names of what is in a result folder.
+inline constexpr const char* kEvaluationFile = "evaluation.json";
+inline constexpr const char* kRecordFile = "record.json";
+inline constexpr const char* kProtocolFile = "protocol.toml";
+
+/// Throws Error{refused} if the folder holds anything but results, unless forced.
+void check_results_folder(const std::filesystem::path& output, bool force);
+
+/// Writes report, tables and figures and what `more` writes, all at once; tells the statuses.
+void deliver_results(Session& session, const std::filesystem::path& output, const Report& report,
+                     const std::vector<Table>& data,
+                     const std::function<void(const std::filesystem::path&)>& more);
+
+}  // namespace verdigris::cli
