@@ -158,11 +158,11 @@ Report evaluation_report(const Evaluation& evaluation, const std::vector<Directi
     for (const Status& s : evaluation.notes) leaks.blocks.push_back(s);
     report.sections.push_back(std::move(leaks));
 
-    report.sections.push_back({"errors", "Errors", {error_table(evaluation)}});
+    report.sections.push_back({"by-forecaster", "Errors", {error_table(evaluation)}});
     report.sections.push_back(
-        {"intervals", "How sure", {interval_table(list), gain_figure(list), block_table(list)}});
-    report.sections.push_back({"horizons", "By horizon", {horizon_figure(evaluation)}});
-    report.sections.push_back({"windows",
+        {"how-sure", "How sure", {interval_table(list), gain_figure(list), block_table(list)}});
+    report.sections.push_back({"by-horizon", "By horizon", {horizon_figure(evaluation)}});
+    report.sections.push_back({"counts",
                                "Windows and protocol",
                                {window_count_table(evaluation), Paragraph{"The protocol as it was "
                                                                           "applied is in "
