@@ -13,6 +13,9 @@
 namespace verdigris {
 namespace {
 
+// chosen: of four blocks or fewer a percentile interval is little more than their range.
+constexpr std::size_t kFewBlocks = 5;
+
 std::string percent(double v) {
     return fmt::format("{:+.1f} %", 100 * v);
 }
@@ -30,7 +33,10 @@ std::string sentence_of(const Direction& d, const EntrantVerdict& v, const Entra
         const auto better = std::count_if(v.blocks.begin(), v.blocks.end(),
                                           [](const BlockGain& b) { return b.value > 0; });
         text += fmt::format(" It is better in {} of {} blocks", better, v.blocks.size());
-        if (v.block) {
+        if (v.blocks.size() < kFewBlocks) {
+            text += fmt::format("; {} blocks are too few to say how sure that is.",
+                                v.blocks.size());
+        } else if (v.block) {
             const bool zero_inside = v.block->low <= 0 && v.block->high >= 0;
             text += fmt::format("; the block interval {} to {} {} zero{}.", percent(v.block->low),
                                 percent(v.block->high), zero_inside ? "includes" : "excludes",

@@ -83,7 +83,7 @@ TEST(EvaluationReport, AnIntervalAcrossZeroIsNotCalledSettled) {
         }
     }
     const EntrantVerdict v = verdicts(e)[0].entrants[0];
-    ASSERT_GE(v.blocks.size(), 2u);
+    ASSERT_GE(v.blocks.size(), 5u);
     ASSERT_TRUE(v.block.has_value());
     EXPECT_LT(v.block->low, 0);
     EXPECT_GT(v.block->high, 0);
