@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "stages.h"
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
+#include "verdigris/observe/unit_axis.h"
 #include "verdigris/recording/recording_writer.h"
 #include "verdigris/simulate/effort.h"
 #include "verdigris/simulate/simulate.h"
@@ -98,8 +100,9 @@ bool spec_is_new(const fs::path& path, const SimulationSpec& spec, bool force) {
     }
     if (force && !fs::is_directory(path, error)) return true;
     throw Error(ErrorCode::refused,
-                "is there already and says something else than this run's spec, which is written "
-                "there; give the recording another name, or --force replaces it",
+                "is there already and is another spec than this run's, which would be written "
+                "beside the recording under that name; give the recording another name, or use "
+                "--force",
                 path.string());
 }
 
@@ -190,7 +193,19 @@ void run(Session& session, const Arguments& a) {
         fmt::format("Change    {}   (every number of it; run it with --spec)", resolved.string()));
     if (truth)
         session.say(fmt::format("Truth     {}", (fs::path(a.truth) / "truth.json").string()));
-    session.say(fmt::format("Try next  verdigris age {}", output.string()));
+    // What `age` takes the recording to span by itself: see observe/unit_axis.h.
+    const double read_as =
+        spec.frames.count < kFramesForUnitGrid ? double(spec.frames.count) : kUnitsPerRecording;
+    const bool other_units = std::abs(read_as - spec.frames.units) > 1e-9;
+    if (other_units) {
+        session.tell(
+            {"other_units", Severity::info,
+             fmt::format("by itself `age` takes {} frames to span {:g} units; --units {:g} "
+                         "gives it this recording's own",
+                         spec.frames.count, read_as, spec.frames.units)});
+    }
+    session.say(fmt::format("Try next  verdigris age {}{}", output.string(),
+                            other_units ? fmt::format(" --units {:g}", spec.frames.units) : ""));
     session.result({{"simulated", true},
                     {"recording", output.string()},
                     {"spec", resolved.string()},
@@ -223,10 +238,12 @@ void add_simulate(CLI::App& app, Session& session) {
     command->add_option("--truth", a->truth, "Folder for what a recording cannot show");
     command->add_option("--seed", a->seed, "Another specimen on another day (0)")
         ->check(CLI::Range(std::uint64_t(0), std::uint64_t(1) << 53));
-    command->add_flag("--full", a->full,
-                      "As the paper's cameras recorded it: 1080p60 for 601 s, or 720x1280");
+    command->add_flag(
+        "--full", a->full,
+        "As the paper's cameras recorded it: 1080p60 for 601 s; air 720x1280 at 30 for 482 s");
     command->add_option("--size", a->size, "Frames of WIDTHxHEIGHT");
-    command->add_option("--frames", a->frames, "Frames in all (984: one per sample)");
+    command->add_option("--frames", a->frames,
+                        "Frames in all (984: one per sample; under 148 are read as a unit each)");
     command->add_flag("--print-spec", a->print_spec, "Print every number and stop");
     command->add_flag("--force", session.force, "Replace what is there");
     session.add_options(*command);

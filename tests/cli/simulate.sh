@@ -56,7 +56,7 @@ cmp -s "$scratch/a.mp4" "$scratch/c.mp4" || fail "--force left the old recording
 
 # A spec beside the recording always says what made it: an override is not written over in silence.
 "$verdigris" simulate "${small[@]}" -o "$scratch/own.mp4" --quiet
-expect 4 "own\.spec\.toml.*else" "$verdigris" simulate --spec "$scratch/own.spec.toml" --seed 5 -o "$scratch/own.mp4"
+expect 4 "own\.spec\.toml.*another spec" "$verdigris" simulate --spec "$scratch/own.spec.toml" --seed 5 -o "$scratch/own.mp4"
 "$verdigris" simulate --spec "$scratch/own.spec.toml" --seed 5 -o "$scratch/own.mp4" --force --quiet || fail "own.mp4 with --force"
 grep -q '^seed = 5' "$scratch/own.spec.toml" || fail "the spec beside the recording is not what made it"
 "$verdigris" simulate --spec "$scratch/own.spec.toml" -o "$scratch/own.mkv" --quiet || fail "the same spec for two recordings"

@@ -18,7 +18,7 @@ inline Evaluation small_evaluation() {
     std::vector<Observation> list;
     for (const int which : {1, 2}) {
         list.push_back(observed(
-            which == 1 ? "first" : "second", 24, 16, 300,
+            which == 1 ? "first" : "second", 24, 16, 600,
             [which](int x, int y, int t) {
                 SrgbF c = drifted(x, y, t / 10.0, which == 1 ? 1 : 0.8);
                 const auto key = std::uint64_t(((t * 16 + y) * 24 + x) * 3 + which * 1000003);

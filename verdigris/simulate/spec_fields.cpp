@@ -81,7 +81,7 @@ void add_susceptibility(SusceptibilitySpec& s, std::vector<SpecField>& f) {
     add("edge_width", &s.edge_width, 0.001, 10, "over which it falls to 1/e, sides");
     add("drip", &s.drip, -3, 3, "log amplitude of streaks that run down");
     add("feed", &s.feed, 0, 0.2, "of Gray and Scott; other pairs, other patterns");
-    add("kill", &s.kill, 0, 0.2, "");
+    add("kill", &s.kill, 0, 0.2, "spots at feed 0.03 and kill 0.063, labyrinths at 0.035, 0.06");
     add("steps", &s.steps, 0, 100000, "of the reaction");
     add("reaction_scale", &s.reaction_scale, 0.016, 0.25, "four cells of the reaction, sides");
 }

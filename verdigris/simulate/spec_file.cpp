@@ -146,6 +146,11 @@ class Reader {
     [[noreturn]] void refuse(const SpecField& field, const toml::node& node) const {
         // A list of three numbers of which one is wrong is shown, not called a list.
         const toml::array* list = node.as_array();
+        if (list && std::holds_alternative<std::array<double, 3>*>(field.value) &&
+            list->size() != 3) {
+            fail(node.source(), fmt::format("{} is a list of {}; allowed are {}", field.name(),
+                                            list->size(), allowed(field)));
+        }
         if (list && list->size() == 3 && list->is_homogeneous<double>())
             if (const std::string text = complaint(field); !text.empty()) fail(node.source(), text);
         std::ostringstream text;
@@ -268,7 +273,8 @@ SimulationSpec read_spec(const std::filesystem::path& path, const std::string& f
         const auto& names = preset_names();
         if (!name || std::find(names.begin(), names.end(), *name) == names.end()) {
             Reader(path, spec)
-                .fail(named->source(), fmt::format("preset is not one of ours; allowed are \"{}\"",
+                .fail(named->source(), fmt::format("preset is {}; allowed are \"{}\"",
+                                                   name ? "'" + shown(*name) + "'" : "no word",
                                                    fmt::join(names, "\", \"")));
         }
         preset = *name;
@@ -284,7 +290,8 @@ std::string spec_text(const SimulationSpec& spec) {
     SimulationSpec copy = spec;
     std::string text = fmt::format(
         "# Every number of a simulated specimen. Change what you like, leave out what you do not:\n"
-        "# what is missing comes from the preset.\n"
+        "# what is missing comes from the preset. docs/models/simulate.md says what all of it "
+        "does.\n"
         "#   verdigris simulate --spec THIS_FILE -o specimen.mp4\n"
         "preset = \"{}\"\n",
         spec.preset);
@@ -300,7 +307,7 @@ std::string spec_text(const SimulationSpec& spec) {
         if (bounded) about += fmt::format("{}{}", about.empty() ? "" : "; ", allowed(field));
         if (std::holds_alternative<SpecChoice>(field.value)) about += "; " + allowed(field);
         const std::string line = fmt::format("{} = {}", field.key, text_of(field));
-        text += about.empty() ? line + "\n" : fmt::format("{:<32}# {}\n", line, about);
+        text += about.empty() ? line + "\n" : fmt::format("{:<31} # {}\n", line, about);
     }
     return text;
 }

@@ -118,11 +118,11 @@ TEST_F(SpecFile, ABadSpecIsRefusedNamingKeyLineAndRange) {
               "my.toml, line 2: susceptibility.pattern is 'stripes'; allowed are \"gaussian\" and "
               "\"reaction_diffusion\"");
     EXPECT_EQ(refused("[camera]\ndrift_gain = [1, 2]\n"),
-              "my.toml, line 2: camera.drift_gain is a list; allowed are three numbers, each 0.01 "
-              "to 100");
+              "my.toml, line 2: camera.drift_gain is a list of 2; allowed are three numbers, each "
+              "0.01 to 100");
     EXPECT_NE(refused("[camera]\ndrift_gain = [1, 2, 300]\n").find("each 0.01 to 100"),
               std::string::npos);
-    EXPECT_NE(refused("preset = \"mars\"\n").find("line 1: preset is not one of ours; allowed are"),
+    EXPECT_NE(refused("preset = \"mars\"\n").find("line 1: preset is 'mars'; allowed are"),
               std::string::npos);
     EXPECT_NE(refused("[oxide\n").find("line 1: is not TOML"), std::string::npos);
     EXPECT_NE(refused("seed = [1, 2]\n").find("seed is a list"), std::string::npos);
