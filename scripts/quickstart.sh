@@ -16,7 +16,7 @@ if [ $# -gt 0 ] && [ ! -e "$1" ]; then
   echo "quickstart: $1: no such file or folder" >&2
   exit 3
 fi
-"$root/scripts/install_packages.sh" build viewer
+"$root/scripts/install_packages.sh" build viewer report
 "$root/scripts/build.sh" release verdigris_cli
 verdigris="$root/build/release/bin/verdigris"
 recording=${1:-$root/out/simulated.mp4}

@@ -60,11 +60,11 @@ SimulationSpec air() {
     s.susceptibility.coarse = 0.3;
     s.susceptibility.drip = 0.25;
     s.oxide.initial_nm = 7.5;               // tuned
-    s.oxide.growth.parabolic_rate = 0.72;  // tuned
+    s.oxide.growth.parabolic_rate = 0.68;  // tuned
     s.oxide.chemistry.fresh = 0.6;
     s.environment.noise = 0.3;
     s.environment.diurnal = 0.2;
-    s.camera.auto_exposure = 0.33;  // tuned
+    s.camera.auto_exposure = 0.36;  // tuned
     s.camera.auto_exposure_lag = 2;
     s.camera.light_drift = 0.039;  // tuned
     s.camera.white_balance = 0.004;
