@@ -34,8 +34,8 @@ std::string sentence_of(const Direction& d, const EntrantVerdict& v, const Entra
                                           [](const BlockGain& b) { return b.value > 0; });
         text += fmt::format(" It is better in {} of {} blocks", better, v.blocks.size());
         if (v.blocks.size() < kFewBlocks) {
-            text += fmt::format("; {} blocks are too few to say how sure that is.",
-                                v.blocks.size());
+            text +=
+                fmt::format("; {} blocks are too few to say how sure that is.", v.blocks.size());
         } else if (v.block) {
             const bool zero_inside = v.block->low <= 0 && v.block->high >= 0;
             text += fmt::format("; the block interval {} to {} {} zero{}.", percent(v.block->low),
@@ -78,6 +78,22 @@ std::vector<EntrantVerdict::Named> named_gains(const Evaluation& e, const Direct
             {block, windows, under > 0 ? over / under : std::numeric_limits<double>::quiet_NaN()});
     }
     return result;
+}
+
+std::vector<PairVerdict> pairs_of(const Direction& d, const BootstrapOptions& options) {
+    // chosen: beyond six there are more pairs than anybody reads, each with two bootstraps.
+    constexpr std::size_t kMost = 6;
+    std::vector<PairVerdict> pairs;
+    if (d.starts.empty() || d.entrants.size() > kMost + 1) return pairs;
+    for (std::size_t i = 1; i < d.entrants.size(); ++i) {
+        for (std::size_t j = i + 1; j < d.entrants.size(); ++j) {
+            const WindowRatios ratios = difference_ratios(d, d.entrants[i], d.entrants[j]);
+            pairs.push_back({d.entrants[i].name, d.entrants[j].name, ratio(ratios),
+                             bootstrap(ratios, BootstrapKind::block, options),
+                             bootstrap(ratios, BootstrapKind::moving_block, options)});
+        }
+    }
+    return pairs;
 }
 
 }  // namespace
@@ -127,6 +143,7 @@ std::vector<DirectionVerdict> verdicts(const Evaluation& evaluation,
             v.sentence = sentence_of(d, v, scores);
             verdict.entrants.push_back(std::move(v));
         }
+        verdict.pairs = pairs_of(d, options);
         all.push_back(std::move(verdict));
     }
     return all;
@@ -166,7 +183,9 @@ Report evaluation_report(const Evaluation& evaluation, const std::vector<Directi
 
     report.sections.push_back({"by-forecaster", "Errors", {error_table(evaluation)}});
     report.sections.push_back(
-        {"how-sure", "How sure", {interval_table(list), gain_figure(list), block_table(list)}});
+        {"how-sure",
+         "How sure",
+         {interval_table(list), gain_figure(list), pair_table(list), block_table(list)}});
     report.sections.push_back({"by-horizon", "By horizon", {horizon_figure(evaluation)}});
     report.sections.push_back({"counts",
                                "Windows and protocol",

@@ -29,9 +29,16 @@ struct EntrantVerdict {
     /// In words, with its numbers: better or worse, by how much, how sure.
     std::string sentence;
 };
+/// Two forecasters on the same windows.
+struct PairVerdict {
+    std::string first, second;
+    double difference = 0;  ///< gain(first) - gain(second): positive where the first is better
+    std::optional<Interval> block, moving_block;  ///< paired: the same windows drawn for both
+};
 struct DirectionVerdict {
     const Direction* direction = nullptr;
     std::vector<EntrantVerdict> entrants;  ///< persistence left out
+    std::vector<PairVerdict> pairs;        ///< all of them, while there are at most six entrants
 };
 
 /// `evaluation` must outlive the result. Blocks of recordings that were not evaluated are an
@@ -49,6 +56,7 @@ Table window_errors(const Evaluation& evaluation);
 /// The tables, apart from the page.
 Table error_table(const Evaluation& evaluation);
 Table interval_table(const std::vector<DirectionVerdict>& verdicts);
+Table pair_table(const std::vector<DirectionVerdict>& verdicts);
 Table block_table(const std::vector<DirectionVerdict>& verdicts);
 Table window_count_table(const Evaluation& evaluation);
 Figure horizon_figure(const Evaluation& evaluation);

@@ -91,6 +91,22 @@ TEST(EvaluationReport, AnIntervalAcrossZeroIsNotCalledSettled) {
         << v.sentence;
 }
 
+TEST(EvaluationReport, PairsAreDifferencesOfGains) {
+    Evaluation e = testing::small_evaluation();
+    Direction& d = e.directions[0];
+    EntrantScores worse = d.entrants[1];
+    worse.name = "worse";
+    for (double& v : worse.foreground.values) v *= 3;
+    d.entrants.push_back(worse);
+    const DirectionVerdict v = verdicts(e)[0];
+    ASSERT_EQ(v.pairs.size(), 1u);
+    EXPECT_EQ(v.pairs[0].second, "worse");
+    EXPECT_NEAR(v.pairs[0].difference, v.entrants[0].gain - v.entrants[1].gain, 1e-12);
+    ASSERT_TRUE(v.pairs[0].block.has_value());
+    EXPECT_GT(v.pairs[0].block->low, 0) << "three times the error in every window";
+    check_table(pair_table({v}));
+}
+
 TEST(EvaluationReport, NamedBlocksGetGainsOfTheirOwn) {
     const Evaluation e = testing::small_evaluation();
     const auto list = verdicts(e, {{"first", "early", 0, 8}, {"first", "empty", 500, 501}});

@@ -107,6 +107,30 @@ Table interval_table(const std::vector<DirectionVerdict>& list) {
     return table;
 }
 
+Table pair_table(const std::vector<DirectionVerdict>& list) {
+    Table table;
+    table.id = "pairs";
+    table.title = "Forecasters against each other";
+    table.caption =
+        "Gain of the first less gain of the second, on the same windows, with nominal "
+        "95 % intervals: positive where the first is better.";
+    table.group_header = "direction";
+    table.columns = {{"first", "First", Align::left},
+                     {"second", "Second", Align::left},
+                     {"block", "difference, blocks", Align::right, kGain, true},
+                     {"moving_block", "moving blocks", Align::right, kGain, true}};
+    for (const DirectionVerdict& d : list) {
+        RowGroup group;
+        group.title = d.direction->label();
+        for (const PairVerdict& p : d.pairs)
+            group.rows.push_back({TableCell(p.first), TableCell(p.second),
+                                  interval_cell(p.difference, p.block),
+                                  interval_cell(p.difference, p.moving_block)});
+        table.groups.push_back(std::move(group));
+    }
+    return table;
+}
+
 Table block_table(const std::vector<DirectionVerdict>& list) {
     Table table;
     table.id = "blocks";
