@@ -90,12 +90,12 @@ Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& 
             direction["forecasters"][d.entrants[i].name] =
                 scores_json(d, d.entrants[i], &verdict.entrants[i - 1]);
         direction["pairs"] = Json::array();
-        for (const PairVerdict& p : verdict.pairs)
-            direction["pairs"].push_back({{"first", p.first},
-                                          {"second", p.second},
-                                          {"difference", number(p.difference)},
-                                          {"block", interval(p.block)},
-                                          {"moving_block", interval(p.moving_block)}});
+        for (const PairVerdict& pair : verdict.pairs)
+            direction["pairs"].push_back({{"first", pair.first},
+                                          {"second", pair.second},
+                                          {"difference", number(pair.difference)},
+                                          {"block", interval(pair.block)},
+                                          {"moving_block", interval(pair.moving_block)}});
         out["directions"].push_back(std::move(direction));
     }
     out["notes"] = Json::array();
