@@ -19,17 +19,18 @@ namespace {
 std::vector<int> contexts_that_fit(Session& session, const EvaluationProtocol& protocol,
                                    const std::vector<Observation>& observations,
                                    const std::vector<int>& wanted) {
-    std::vector<int> fit;
-    for (const int n : wanted) {
+    const auto fits = [&](int n) {
         EvaluationProtocol p = protocol;
         p.context = n;
-        const bool fits = std::ranges::all_of(observations, [&](const Observation& o) {
-            const int usable = o.store->count() - p.trim_lead - p.trim_tail;
-            return usable > p.span();
+        return std::ranges::all_of(observations, [&](const Observation& o) {
+            return o.store->count() - p.trim_lead - p.trim_tail > p.span();
         });
-        if (fits || n == protocol.context) {
+    };
+    std::vector<int> fit;
+    for (const int n : wanted) {
+        if (fits(n) || n == protocol.context) {
             fit.push_back(n);
-        } else {
+        } else if (fits(protocol.context)) {
             session.tell({"context_left_out", Severity::caution,
                           fmt::format("a context of {} frames is left out: the recordings are too "
                                       "short for one window of it",

@@ -26,6 +26,13 @@ void run(Session& session, const Arguments& a) {
     const std::vector<Observation> observations = observe_all(session, a.judge);
     EvaluationProtocol protocol = protocol_for(session, a.judge, observations);
     protocol.single = true;  // nothing is trained, and each recording has a light of its own
+    for (std::size_t i = 0; i < observations.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (observations[i].source_sha256 == observations[k].source_sha256)
+                throw Error(ErrorCode::refused,
+                            fmt::format("{} and {} are two copies of one recording: one piece of "
+                                        "evidence would look like two",
+                                        observations[k].source_name, observations[i].source_name));
     std::vector<RecordingDrift> list;
     for (const Observation& o : observations)
         list.push_back(measure_recording_drift(protocol, o, entrants, {}, session.progress()));

@@ -22,13 +22,25 @@ Json numbers(const std::vector<double>& values) {
     return list;
 }
 
-std::string block_title(const std::string& block) {
-    if (block == "context") return "frames observed";
-    if (block == "family") return "color transform, fitted to all pixels";
-    if (block == "order") return "extrapolation";
-    if (block == "fit-pixels") return "fitted pixels (only the specimen moves and counts)";
-    if (block == "ridge") return "ridge";
-    return block;
+std::string group_title(const CharacterizationRow& row) {
+    if (row.block == "context") return "frames observed";
+    if (row.block == "family") return "color transform";
+    if (row.block == "order") return "extrapolation";
+    if (row.block == "ridge") return "ridge";
+    const bool all = row.setting.find("all pixels") != std::string::npos;
+    return all ? "only the specimen moves and counts; fitted to all pixels"
+               : "only the specimen moves and counts; fitted to the specimen";
+}
+
+// Holding still on windows that no row before was scored on.
+void add_holding_still(const CharacterizationRow& row, Table& table) {
+    const std::string of = row.block == "context" ? row.setting : "the specimen";
+    TableRow cells{TableCell("holding still, " + of)};
+    for (const CharacterizationCell& cell : row.cells) {
+        cells.emplace_back(cell.persistence);
+        cells.emplace_back();
+    }
+    table.groups.back().rows.push_back(std::move(cells));
 }
 
 // A page is too narrow for every horizon.
@@ -61,35 +73,36 @@ Table characterization_table(const Characterization& table,
     out.id = "characterization";
     out.title = "What the closed-form forecaster needs";
     out.caption =
-        "Foreground MSE of affinergb, of holding still on the same windows, and the gain over it "
-        "with nominal 95 % block intervals. One axis varies per block of rows; \u2020 marks what "
-        "is "
+        "Foreground MSE of affinergb and its gain over holding still on the same windows, with "
+        "nominal 95 % block intervals. One axis varies per block of rows; \u2020 marks what is "
         "used everywhere else. Unregularized and unclamped except under ridge.";
-    out.note =
-        "Windows shift with the number of frames observed, and so does holding still. "
-        "Compare fitted pixels only with one another: there the backdrop is neither moved nor "
-        "counted.";
+    out.note = "Windows shift with the number of frames observed, and so does holding still.";
     out.group_header = "axis";
     out.columns = {{"setting", "Setting", Align::left}};
     for (std::size_t i = 0; i < table.directions.size(); ++i) {
-        const std::string& name = table.directions[i];
-        out.columns.push_back({fmt::format("error_{}", i + 1), name, Align::right, kError});
         out.columns.push_back(
-            {fmt::format("persistence_{}", i + 1), "holding still", Align::right, kError});
+            {fmt::format("error_{}", i + 1), table.directions[i], Align::right, kError});
         out.columns.push_back({fmt::format("gain_{}", i + 1), "gain", Align::right, kGain, true});
     }
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const CharacterizationRow& row = table.rows[r];
-        const std::string title = block_title(row.block);
+        const std::string title = group_title(row);
         if (out.groups.empty() || out.groups.back().title != title)
             out.groups.push_back({title, {}});
-        TableRow cells{TableCell(row.setting + (row.usual ? " \u2020" : ""))};
+        const std::string setting = row.setting.substr(0, row.setting.find(", fitted"));
+        TableRow cells{TableCell(setting + (row.usual ? " \u2020" : ""))};
         for (std::size_t i = 0; i < row.cells.size(); ++i) {
             cells.emplace_back(row.cells[i].error);
-            cells.emplace_back(row.cells[i].persistence);
             cells.push_back(cell_of(verdict.gains[r][i]));
         }
         out.groups.back().rows.push_back(std::move(cells));
+        const bool last = r + 1 == table.rows.size() || group_title(table.rows[r + 1]) != title;
+        if (last && row.block == "context") {
+            for (const CharacterizationRow& context : table.rows)
+                if (context.block == "context") add_holding_still(context, out);
+        } else if (last && row.block == "fit-pixels") {
+            add_holding_still(row, out);
+        }
     }
     for (std::size_t i = 0; i < table.directions.size(); ++i)
         mark_best(out, fmt::format("gain_{}", i + 1), Better::higher);

@@ -15,7 +15,8 @@ namespace verdigris {
 Report characterization_report(const EvaluationProtocol& protocol, const Characterization& table,
                                const CharacterizationVerdict& verdict);
 
-/// One row per setting; per direction error, persistence of the same windows, gain.
+/// One row per setting; per direction error and gain. Holding still has rows of its own where the
+/// windows are others, as in the paper.
 Table characterization_table(const Characterization& table, const CharacterizationVerdict& verdict);
 /// Some of the horizons, per direction.
 Table long_horizon_table(const CharacterizationVerdict& verdict);

@@ -45,6 +45,7 @@ bool holds(const std::string& text, const char* part) {
 }
 
 std::string against_still(double gain) {
+    if (gain < -1) return fmt::format("with {:.3g} times the error of holding still", 1 - gain);
     return gain > 0   ? fmt::format("{:.1f} % better than holding still", 100 * gain)
            : gain < 0 ? fmt::format("{:.1f} % worse than holding still", -100 * gain)
                       : "no better and no worse than holding still";
@@ -123,7 +124,7 @@ std::string far_sentence(const LongVerdict& v) {
     if (v.unclamped.empty()) return "no window reaches far enough for long horizons.";
     const bool better = v.unclamped.front() < v.persistence.front();
     const double last = gain_over(v.unclamped.back(), v.persistence.back());
-    std::string text = fmt::format("out to t+{} ({} windows, of which {} share no sample) ",
+    std::string text = fmt::format("out to t+{} ({} windows, at most {} of them independent) ",
                                    v.horizons, v.windows, std::max(1, v.independent));
     if (v.crossings.empty()) {
         text += better ? "the unclamped forecast stays better than holding still"

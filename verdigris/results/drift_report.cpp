@@ -17,6 +17,8 @@ constexpr NumberFormat kGain{NumberStyle::percent, 1, true};
 constexpr NumberFormat kShare{NumberStyle::percent, 2, false};
 constexpr NumberFormat kCount{NumberStyle::integer, 0, false};
 constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
+// Series take their inks in order, and these are the inks of blue, red and green (palette.h).
+constexpr std::array<std::size_t, 3> kDrawn{2, 0, 1};
 
 Json number(double v) {
     return std::isfinite(v) ? Json(v) : Json(nullptr);
@@ -44,13 +46,15 @@ FigurePanel color_panel(const RecordingDrift& drift) {
     panel.title = drift.name + ": mean color";
     panel.x = {.label = "units"};
     panel.y = {.label = "encoded sRGB", .format = {NumberStyle::fixed, 3, false}};
-    for (std::size_t c = 0; c < 3; ++c)
+    for (const std::size_t c : kDrawn)
         panel.series.push_back(channel(fmt::format("specimen {}", kChannels[c]),
                                        drift.series->specimen, c, drift.stride));
-    for (std::size_t c = 0; c < 3; ++c) {
-        panel.series.push_back(channel(fmt::format("reference {}", kChannels[c]),
-                                       drift.series->reference, c, drift.stride));
-    }
+    // One curve: a neutral backdrop's channels would hide one another. reference_figure() parts
+    // them.
+    std::vector<ChannelValues> gray = drift.series->reference;
+    for (ChannelValues& v : gray) v[0] = (v[0] + v[1] + v[2]) / 3;
+    panel.series.push_back(channel("reference", gray, 0, drift.stride));
+    panel.series.back().muted = true;
     return panel;
 }
 
@@ -84,15 +88,17 @@ Table drift_table(const std::vector<RecordingDrift>& list) {
     table.id = "drift";
     table.title = "Movement of specimen and reference";
     table.caption =
-        "Largest distance of the smoothed mean color from its start, mean of the channels, of full "
-        "scale; Pearson's correlation of the lightness of both over the samples, as measured and "
+        "Pixels of the reference and their distance from the specimen, of the usual one; how far "
+        "the "
+        "smoothed mean colors went from their start, mean of the channels, of full scale; "
+        "Pearson's correlation of the lightness of both over the samples, as measured and "
         "smoothed. The reference is found in the first 20 samples by its looks.";
     table.columns = {
         {"recording", "Recording", Align::left},
-        {"reference_pixels", "reference pixels", Align::right, kCount},
+        {"reference_pixels", "pixels", Align::right, kCount},
         {"margin", "margin", Align::right, {NumberStyle::fixed, 2, false}},
-        {"specimen", "specimen moved", Align::right, kShare},
-        {"reference", "reference moved", Align::right, kShare},
+        {"specimen", "specimen", Align::right, kShare},
+        {"reference", "reference", Align::right, kShare},
         {"ratio", "ratio", Align::right, {NumberStyle::significant, 3, false}},
         {"correlation", "correlation", Align::right, {NumberStyle::fixed, 2, true}},
         {"smooth_correlation", "smoothed", Align::right, {NumberStyle::fixed, 2, true}}};
@@ -122,13 +128,10 @@ Table drift_gain_table(const std::vector<RecordingDrift>& list) {
         "Gain over persistence within each recording, with nominal 95 % block intervals; noise and "
         "threshold measured again after each correction.";
     table.group_header = "recording";
-    table.columns = {{"forecaster", "Forecaster", Align::left},
-                     {"correction", "Correction", Align::left},
-                     {"windows", "windows", Align::right, kCount},
-                     {"persistence", "holding still", Align::right, kError},
-                     {"error", "error", Align::right, kError},
-                     {"gain", "gain", Align::right, kGain, true},
-                     {"blocks", "blocks better", Align::left}};
+    table.columns = {
+        {"forecaster", "Forecaster", Align::left},    {"correction", "Correction", Align::left},
+        {"windows", "windows", Align::right, kCount}, {"error", "error", Align::right, kError},
+        {"gain", "gain", Align::right, kGain, true},  {"blocks", "blocks better", Align::left}};
     for (const RecordingDrift& d : list) {
         RowGroup group{d.name, {}};
         for (const DriftGain& g : d.gains) {
@@ -136,8 +139,7 @@ Table drift_gain_table(const std::vector<RecordingDrift>& list) {
                 g.gain.blocks, [](const BlockGain& b) { return b.value > 0; });
             group.rows.push_back(
                 {TableCell(g.forecaster), TableCell(to_string(g.correction)),
-                 TableCell(g.gain.windows), finite_or_missing(g.persistence),
-                 finite_or_missing(g.error), cell_of(g.gain),
+                 TableCell(g.gain.windows), finite_or_missing(g.error), cell_of(g.gain),
                  TableCell(fmt::format("{} of {}", better, g.gain.blocks.size()))});
         }
         table.groups.push_back(std::move(group));
@@ -150,7 +152,8 @@ Figure drift_figure(const std::vector<RecordingDrift>& list) {
     figure.id = "camera";
     figure.title = "Is it the camera?";
     figure.caption =
-        "Left: mean color of specimen and reference over the recording, as measured. Right: gain "
+        "Left: mean color of specimen and reference (gray: mean of its channels), as measured. "
+        "Right: gain "
         "over persistence as recorded and after correction, with nominal 95 % block intervals.";
     for (const RecordingDrift& d : list) {
         if (d.series) figure.panels.push_back(color_panel(d));
@@ -170,8 +173,9 @@ Figure reference_figure(const std::vector<RecordingDrift>& list) {
         panel.title = d.name;
         panel.x = {.label = "units"};
         panel.y = {.label = "change, of full scale", .format = {NumberStyle::percent, 2, true}};
-        for (std::size_t c = 0; c < 3; ++c)
-            panel.series.push_back(channel(kChannels[c], d.series->smooth_reference, c, d.stride,
+        for (const std::size_t c : kDrawn)
+            panel.series.push_back(channel(fmt::format("reference {}", kChannels[c]),
+                                           d.series->smooth_reference, c, d.stride,
                                            d.series->smooth_reference.front()[c]));
         figure.panels.push_back(std::move(panel));
     }

@@ -54,53 +54,51 @@ std::string correlation_sentence(const DriftSeries& s) {
 
 std::string gain_text(const DriftGain& g) {
     return std::isfinite(g.gain.value)
-               ? fmt::format("{} after {}", signed_percent(g.gain.value), to_string(g.correction))
-               : fmt::format("no window that changes after {}", to_string(g.correction));
+               ? fmt::format("by {} {}", to_string(g.correction), signed_percent(g.gain.value))
+               : fmt::format("by {} no window is left that changes", to_string(g.correction));
 }
 
 std::string result_sentence(const RecordingDrift& drift, const std::string& forecaster) {
     const DriftGain& raw = drift.gain_of(forecaster, std::nullopt);
     if (!std::isfinite(raw.gain.value))
         return fmt::format("{} cannot be judged, since no window changes.", forecaster);
-    std::string text = fmt::format("{} gains {} over holding still as recorded", forecaster,
-                                   signed_percent(raw.gain.value));
+    std::string text =
+        fmt::format("{} is {:.1f} % {} than holding still as recorded", forecaster,
+                    100 * std::fabs(raw.gain.value), raw.gain.value > 0 ? "better" : "worse");
     if (drift.maps.empty())
         return text + fmt::format(
-                          " ({}); without a reference it stays open whether that is on the "
-                          "metal or on the camera.",
+                          " ({}); without a reference it stays open how much of that is the "
+                          "camera's.",
                           how_sure(raw.gain));
     std::vector<std::string> parts;
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    bool gone = false;
-    int settled = 0;
+    double least = std::numeric_limits<double>::infinity();
+    int better = 0, settled = 0, gone = 0;
     for (const DriftCorrection c : kCorrections) {
         const DriftGain& g = drift.gain_of(forecaster, c);
         parts.push_back(gain_text(g));
         if (!std::isfinite(g.gain.value)) {
-            gone = true;
+            ++gone;
             continue;
         }
-        least = std::min(least, g.gain.value), most = std::max(most, g.gain.value);
-        settled += sign_is_settled(g.gain);
+        least = std::min(least, g.gain.value);
+        better += g.gain.value > 0;
+        settled += sign_is_settled(g.gain) && g.gain.value > 0;
     }
-    text += fmt::format(", {}", fmt::join(parts, ", "));
-    if (raw.gain.value <= 0) {
-        if (most > 0)
-            return text +
-                   ": there is no advantage as recorded, and one after some of the "
-                   "corrections.";
-        return text + ": there is no advantage to survive.";
-    }
-    if (gone)
-        return text +
-               ": what changed was the light, and so the result does not survive correction.";
-    if (least <= 0) return text + ": the result does not survive correction.";
+    text += fmt::format("; after correction {}: ", fmt::join(parts, ", "));
+    if (gone == 3) return text + "what changed was the light, and nothing of the result survives.";
+    const std::string sure =
+        fmt::format(" (the blocks settle that it is better in {} of 3)", settled);
+    if (raw.gain.value <= 0)
+        return text + (better == 0 ? "there is no advantage to survive."
+                                   : fmt::format("no advantage as recorded, one after {} of 3 "
+                                                 "corrections{}.",
+                                                 better, sure));
+    if (better < 3)
+        return text + fmt::format("the result does not survive {} of 3 corrections.", 3 - better);
     // chosen: where less than half is left the larger part was on the camera.
-    text += least < 0.5 * raw.gain.value
-                ? ": the result survives correction in sign, but less than half of it is left"
-                : ": the result survives correction";
-    return text +
-           fmt::format("; with its sign settled by the blocks in {} of 3 corrections.", settled);
+    if (least < 0.5 * raw.gain.value)
+        return text + fmt::format("of the result less than half survives{}.", sure);
+    return text + fmt::format("the result survives{}.", sure);
 }
 
 void score(const EvaluationProtocol& protocol, const Observation& observation,
@@ -109,10 +107,8 @@ void score(const EvaluationProtocol& protocol, const Observation& observation,
     const Evaluation evaluation =
         evaluate(protocol, std::span(&observation, 1), entrants, progress);
     const Direction& d = evaluation.directions.front();
-    for (const Status& s : evaluation.notes) {
-        const auto known = [&](const Status& n) { return n.id == s.id; };
-        if (std::ranges::none_of(out.notes, known)) out.notes.push_back(s);
-    }
+    // A corrected recording is the same one: what is to be noted of it was noted.
+    if (!correction) out.notes = evaluation.notes;
     for (std::size_t i = 1; i < d.entrants.size(); ++i) {
         DriftGain g;
         g.forecaster = d.entrants[i].name;
