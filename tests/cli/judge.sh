@@ -46,8 +46,9 @@ grep -q 'chamber: .*the camera is not drifting' "$scratch/dr.json" || fail "the 
 grep -q 'air: .*is drifting' "$scratch/dr.json" || fail "the open air's light is not"
 # The result folder is its own again, and one recording alone is enough for this command.
 "$verdigris" drift "$scratch/air.mkv" "${few[@]}" -o "$scratch/dr" --quiet || fail "drift again failed"
-"$verdigris" evaluate "$scratch/air.mkv" "${few[@]}" --single -o "$scratch/single" --json 2>/dev/null |
-  grep -q '"within air"' || fail "--single is not labeled so"
+"$verdigris" evaluate "$scratch/air.mkv" "${few[@]}" --single -o "$scratch/single" --json \
+  >"$scratch/single.json" 2>/dev/null || fail "--single failed"
+grep -q '"within air"' "$scratch/single.json" || fail "--single is not labeled so"
 
 # Bad input: one sentence, the right status, nothing left.
 cp "${two[0]}" "$scratch/copy.mkv"
@@ -62,7 +63,7 @@ bad() { # bad STATUS PATTERN COMMAND...
   expect_nothing "$scratch/bad"
 }
 for command in evaluate characterize drift; do
-  [ $command = drift ] || bad 4 "--single" $command "${two[0]}" "${few[@]}"
+  [ $command = drift ] || bad 4 "holds nothing out.*--single" $command "${two[0]}" "${few[@]}"
   bad 4 "chamber and copy are two copies" $command "${two[0]}" "$scratch/copy.mkv" "${few[@]}"
   bad 3 "too short: 12 usable samples" $command "$scratch/short_chamber.mkv" "$scratch/short_air.mkv"
   bad 3 "overlap\.toml, line 2: .*splits overlap" $command "${two[@]}" --protocol "$scratch/overlap.toml"

@@ -13,6 +13,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr NumberFormat kError{NumberStyle::scientific, 2, false};
 constexpr NumberFormat kGain{NumberStyle::percent, 1, true};
+// Two directions with their intervals have to fit on a page; CSV and JSON hold every digit.
+constexpr NumberFormat kWhole{NumberStyle::percent, 0, true};
 constexpr NumberFormat kShare{NumberStyle::percent, 1, false};
 constexpr NumberFormat kCount{NumberStyle::integer, 0, false};
 
@@ -82,7 +84,7 @@ Table characterization_table(const Characterization& table,
     for (std::size_t i = 0; i < table.directions.size(); ++i) {
         out.columns.push_back(
             {fmt::format("error_{}", i + 1), table.directions[i], Align::right, kError});
-        out.columns.push_back({fmt::format("gain_{}", i + 1), "gain", Align::right, kGain, true});
+        out.columns.push_back({fmt::format("gain_{}", i + 1), "gain", Align::right, kWhole, true});
     }
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const CharacterizationRow& row = table.rows[r];

@@ -84,11 +84,14 @@ std::string family_sentence(const BlockView& view, const char* fitted,
         resolved(paired_difference(view.cell(whole).ratios, view.cell(rest).ratios), options);
     const bool wins = difference.value > 0;
     const bool specimen = holds(fitted, "the specimen");
-    return fmt::format("{}, the full matrix {} ({} against {} of the {}; of the difference {}).",
-                       specimen ? "fitted to the specimen's pixels only" : "fitted to all pixels",
-                       wins ? "wins" : "does not win", signed_percent(view.cell(whole).gain),
-                       signed_percent(view.cell(rest).gain),
-                       rest->setting.substr(0, rest->setting.find(" (")), how_sure(difference));
+    return fmt::format(
+        "{}, the full matrix {} ({} against {} of the {}{}; of the difference {}).",
+        specimen ? "fitted to the specimen's pixels only" : "fitted to all pixels",
+        wins ? "wins" : "does not win", signed_percent(view.cell(whole).gain),
+        signed_percent(view.cell(rest).gain), rest->setting.substr(0, rest->setting.find(" (")),
+        view.cell(whole).gain < 0 && view.cell(rest).gain < 0 ? ", both worse than holding still"
+                                                              : "",
+        how_sure(difference));
 }
 
 std::string order_sentence(const BlockView& view, const BootstrapOptions& options) {
