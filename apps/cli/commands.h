@@ -17,6 +17,8 @@ void add_deliver(CLI::App& app, Session& session);
 void add_view(CLI::App& app, Session& session);
 void add_simulate(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);
+void add_characterize(CLI::App& app, Session& session);
+void add_drift(CLI::App& app, Session& session);
 void add_audit(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
 

@@ -46,9 +46,18 @@ void JudgeArguments::add(CLI::App& command, bool several) {
     command.add_option("--context", context, "Observed frames n (5)")->check(CLI::Range(1, 1000));
     command.add_option("--horizons", horizons, "Forecast frames K (10)")
         ->check(CLI::Range(1, 1000));
+    // "all" is 0 to the protocol.
     command
-        .add_option("--windows", windows, "At most so many windows per recording, evenly spaced")
-        ->check(CLI::Range(1, 1000000));
+        .add_option("--windows", windows,
+                    "At most so many windows per recording, evenly spaced; or all")
+        ->type_name("N|all")
+        ->check(CLI::Range(0, 1000000))
+        ->transform(CLI::Validator(
+            [](std::string& text) {
+                if (text == "all") text = "0";
+                return std::string();
+            },
+            ""));
     command.add_option("--area", area, "frame (all pixels, as the paper) or specimen")
         ->check(CLI::IsMember({"frame", "specimen"}));
     command.add_option("--tau", tau, "Foreground threshold (default: 2.40 times the noise)")
@@ -148,9 +157,9 @@ void check_results_folder(const fs::path& output, bool force) {
                     output.string());
     for (const fs::directory_entry& entry : fs::directory_iterator(output, error)) {
         const std::string name = entry.path().filename().string();
-        static const std::set<std::string> kOurs{"report.html",     "tables",        "figures",
-                                                 kEvaluationFile,   kRecordFile,     kProtocolFile,
-                                                 "drift_gains.csv", "corrected.json"};
+        static const std::set<std::string> kOurs{
+            "report.html", "tables",       "figures",  kEvaluationFile,      kRecordFile,
+            kProtocolFile, kDriftMapsFile, kDriftFile, kCharacterizationFile};
         if (kOurs.count(name) == 0 && !name.starts_with(".partial-"))
             throw Error(ErrorCode::refused,
                         fmt::format("holds other files ('{}'); choose an empty folder or use "

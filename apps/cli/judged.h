@@ -22,8 +22,8 @@ struct JudgeArguments {
     std::vector<std::string> recordings;
     std::string output, protocol, area, crop = "auto";
     int size = 128;
-    std::optional<int> stride, context, horizons, windows;
-    double tau = 0;  ///< 0: from the noise
+    std::optional<int> stride, context, horizons, windows;  ///< windows 0: all
+    double tau = 0;                                         ///< 0: from the noise
     bool single = false;
 
     /// `several`: takes any number of recordings.
@@ -47,6 +47,9 @@ std::vector<Entrant> entrants_from(const std::string& names);
 inline constexpr const char* kEvaluationFile = "evaluation.json";
 inline constexpr const char* kRecordFile = "record.json";
 inline constexpr const char* kProtocolFile = "protocol.toml";
+inline constexpr const char* kCharacterizationFile = "characterization.json";
+inline constexpr const char* kDriftFile = "drift.json";
+inline constexpr const char* kDriftMapsFile = "drift_gains.csv";
 
 /// Throws Error{refused} if the folder holds anything but results, unless forced.
 void check_results_folder(const std::filesystem::path& output, bool force);

@@ -57,6 +57,8 @@ int main(int argc, char** argv) {
     cli::add_view(app, session);
     cli::add_simulate(app, session);
     cli::add_evaluate(app, session);
+    cli::add_characterize(app, session);
+    cli::add_drift(app, session);
     cli::add_audit(app, session);
     cli::add_doctor(app, session);
     try {

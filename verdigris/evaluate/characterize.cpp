@@ -52,11 +52,19 @@ class Sweep {
             entrants_.push_back(training_free(affinergb(options)));
             entrants_.back().name = name;
         }
-        planned_.push_back({{std::move(block), std::move(setting), usual, {}}, name});
+        planned_.push_back(
+            {{std::move(block), std::move(setting), usual, {}, protocol_.context}, name});
     }
     Evaluation run(std::span<const Observation> observations, const Progress& progress,
                    std::vector<CharacterizationRow>& rows) {
         Evaluation evaluation = evaluate(protocol_, observations, entrants_, progress);
+        for (const Direction& d : evaluation.directions) {
+            if (d.starts.empty())
+                throw Error(ErrorCode::refused,
+                            fmt::format("leaves no window to score: {}",
+                                        d.skipped.empty() ? "none fits" : d.skipped.front().why),
+                            d.held_out);
+        }
         for (Planned& p : planned_) {
             for (const Direction& d : evaluation.directions) {
                 const EntrantScores& scores = d.entrant(p.entrant);

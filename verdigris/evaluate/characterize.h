@@ -39,6 +39,7 @@ struct CharacterizationRow {
     std::string setting;                      ///< "n = 5", "full 3x3 + bias (12)", ...
     bool usual = false;                       ///< the paper's dagger: what is used everywhere else
     std::vector<CharacterizationCell> cells;  ///< one per direction
+    int context = 0;  ///< frames observed: with it its windows' span changes
 };
 
 struct Characterization {
@@ -48,7 +49,8 @@ struct Characterization {
 };
 
 /// Everything else as `protocol` says (its context is the usual one). Nothing is trained.
-/// Cost: contexts + 2 evaluations. Throws as evaluate().
+/// Cost: contexts + 2 evaluations. Throws as evaluate(); Error{refused} naming a recording of which
+/// no window could be scored.
 Characterization characterize(const EvaluationProtocol& protocol,
                               std::span<const Observation> observations,
                               const CharacterizeOptions& options = {},

@@ -3,6 +3,11 @@
 // Path: evaluate, report -> [results].
 #pragma once
 
+#include "verdigris/results/characterization_report.h"
+#include "verdigris/results/characterization_verdict.h"
+#include "verdigris/results/drift_report.h"
+#include "verdigris/results/drift_verdict.h"
 #include "verdigris/results/evaluation_json.h"
 #include "verdigris/results/evaluation_report.h"
 #include "verdigris/results/protocol_file.h"
+#include "verdigris/results/resolved.h"

@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Forecasters judged on two made recordings, as a researcher would; then all that must be refused.
+source "$(dirname "$0")/lib.sh"
+for preset in chamber air; do
+  "$verdigris" simulate --preset $preset --size 160x120 --frames 300 -o "$scratch/$preset.mkv" --quiet ||
+    fail "simulate failed"
+done
+two=("$scratch/chamber.mkv" "$scratch/air.mkv")
+few=(--size 64 --windows 12)
+
+expect_files() { # expect_files FOLDER FILE...
+  local folder=$1 f
+  shift
+  for f in report.html protocol.toml "$@"; do
+    [ -s "$folder/$f" ] || fail "$folder/$f is missing"
+  done
+  expect_no_partials "$folder"
+}
+# Figures need gnuplot, which a machine may lack; then the report says so.
+figures() { command -v gnuplot >/dev/null || return 0; printf 'figures/%s.svg\nfigures/%s.png\n' "$1" "$1"; }
+
+"$verdigris" evaluate "${two[@]}" "${few[@]}" -o "$scratch/ev" --json >"$scratch/ev.json" 2>/dev/null ||
+  fail "evaluate failed"
+# shellcheck disable=SC2046
+expect_files "$scratch/ev" evaluation.json record.json tables/errors.csv tables/errors.json \
+  tables/errors.tex tables/windows_all.csv $(figures gains)
+grep -q '"chamber -> air"' "$scratch/ev.json" || fail "evaluate --json lacks a direction"
+
+"$verdigris" audit "$scratch/ev" --json >"$scratch/audit.json" 2>/dev/null || fail "a clean result is not clean"
+grep -q '"clean": true' "$scratch/audit.json" || fail "audit --json does not say clean"
+
+"$verdigris" characterize "${two[@]}" "${few[@]}" -o "$scratch/ch" --json >"$scratch/ch.json" 2>/dev/null ||
+  fail "characterize failed"
+# shellcheck disable=SC2046
+expect_files "$scratch/ch" characterization.json tables/characterization.csv tables/long-horizons.tex \
+  tables/windows_characterization.csv tables/windows_long.csv $(figures errors-far)
+grep -q '"verdict"' "$scratch/ch.json" || fail "characterize --json lacks its verdict"
+[ "$(grep -c '"axis"' "$scratch/ch.json")" -eq 20 ] || fail "not 20 settings"
+
+"$verdigris" drift "${two[@]}" "${few[@]}" -o "$scratch/dr" --forecasters affinergb,auto --json \
+  >"$scratch/dr.json" 2>/dev/null || fail "drift failed"
+# shellcheck disable=SC2046
+expect_files "$scratch/dr" drift.json drift_gains.csv tables/drift.csv tables/drift-gains.tex \
+  tables/drift_series.csv tables/windows_drift.csv $(figures camera)
+grep -q 'chamber: .*the camera is not drifting' "$scratch/dr.json" || fail "the chamber's light is steady"
+grep -q 'air: .*is drifting' "$scratch/dr.json" || fail "the open air's light is not"
+# The result folder is its own again, and one recording alone is enough for this command.
+"$verdigris" drift "$scratch/air.mkv" "${few[@]}" -o "$scratch/dr" --quiet || fail "drift again failed"
+"$verdigris" evaluate "$scratch/air.mkv" "${few[@]}" --single -o "$scratch/single" --json \
+  >"$scratch/single.json" 2>/dev/null || fail "--single failed"
+grep -q '"within air"' "$scratch/single.json" || fail "--single is not labeled so"
+
+# Bad input: one sentence, the right status, nothing left.
+cp "${two[0]}" "$scratch/copy.mkv"
+for preset in chamber air; do
+  "$verdigris" simulate --preset $preset --size 160x120 --frames 12 -o "$scratch/short_$preset.mkv" --quiet
+done
+printf 'grid = 0\ntrain_fraction = 0.9\n' >"$scratch/overlap.toml"
+mkdir "$scratch/mine" && touch "$scratch/mine/thesis.tex"
+bad() { # bad STATUS PATTERN COMMAND...
+  expect "$1" "$2" "$verdigris" "${@:3}" -o "$scratch/bad"
+  [ "$(grep -c . "$scratch/stderr")" -eq 1 ] || fail "more than a sentence: $(cat "$scratch/stderr")"
+  expect_nothing "$scratch/bad"
+}
+for command in evaluate characterize drift; do
+  [ $command = drift ] || bad 4 "holds nothing out.*--single" $command "${two[0]}" "${few[@]}"
+  bad 4 "chamber and copy are two copies" $command "${two[0]}" "$scratch/copy.mkv" "${few[@]}"
+  bad 3 "too short: 12 usable samples" $command "$scratch/short_chamber.mkv" "$scratch/short_air.mkv"
+  bad 3 "overlap\.toml, line 2: .*splits overlap" $command "${two[@]}" --protocol "$scratch/overlap.toml"
+  bad 3 "nowhere\.mkv" $command "${two[0]}" "$scratch/nowhere.mkv"
+  bad 2 "windows" $command "${two[@]}" --windows some
+  expect 4 "thesis\.tex.*--force" "$verdigris" $command "${two[@]}" -o "$scratch/mine"
+  [ "$(ls "$scratch/mine")" = thesis.tex ] || fail "$command wrote into a foreign folder"
+done
+for command in evaluate drift; do
+  bad 2 "net\.safetensors is a trained forecaster" $command "${two[@]}" --forecasters net.safetensors
+  bad 2 "no forecaster 'magic'; choose one of" $command "${two[@]}" --forecasters affinergb,magic
+done
+bad 2 "persistence gains nothing" drift "${two[@]}" --forecasters persistence
+
+# An audit sees what was changed by hand, and says what is no result.
+cp -r "$scratch/ev" "$scratch/tampered"
+awk -F, -v OFS=, 'NR == 9 { $5 = 3 * $5 } { print }' "$scratch/ev/tables/windows_all.csv" \
+  >"$scratch/tampered/tables/windows_all.csv"
+expect 4 "evaluation\.json says a mean error" "$verdigris" audit "$scratch/tampered"
+grep -q "1 finding" "$scratch/stderr" || fail "not one finding"
+expect 3 "is not there" "$verdigris" audit "$scratch/mine"
+expect 3 "is not there" "$verdigris" audit "$scratch/nowhere"
+finish

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/results/resolved.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "verdigris/error.h"
+
+namespace verdigris {
+namespace {
+using Json = nlohmann::ordered_json;
+
+// chosen: of four blocks or fewer a percentile interval is little more than their range.
+constexpr std::size_t kFewBlocks = 5;
+
+Json number(double v) {
+    return std::isfinite(v) ? Json(v) : Json(nullptr);
+}
+
+}  // namespace
+
+Resolved resolved(const WindowRatios& ratios, const BootstrapOptions& options) {
+    Resolved r;
+    r.windows = int(ratios.starts.size());
+    r.value = std::numeric_limits<double>::quiet_NaN();
+    if (ratios.starts.empty()) return r;
+    r.value = ratio(ratios);
+    r.block = bootstrap(ratios, BootstrapKind::block, options);
+    r.blocks = block_gains(ratios, options.block);
+    return r;
+}
+
+WindowRatios paired_difference(const WindowRatios& first, const WindowRatios& second) {
+    if (first.starts != second.starts || first.under != second.under)
+        throw Error(ErrorCode::usage, "a paired difference needs the same windows");
+    WindowRatios difference = first;
+    for (std::size_t i = 0; i < difference.over.size(); ++i) difference.over[i] -= second.over[i];
+    return difference;
+}
+
+bool sign_is_settled(const Resolved& r) {
+    return r.blocks.size() >= kFewBlocks && r.block && (r.block->low > 0 || r.block->high < 0);
+}
+
+std::string how_sure(const Resolved& r) {
+    if (r.blocks.size() < 2) return "there is one block only, which says nothing of how sure";
+    if (r.blocks.size() < kFewBlocks || !r.block)
+        return fmt::format("{} blocks are too few to say how sure that is", r.blocks.size());
+    return fmt::format(
+        "the block interval {} to {} {}", signed_percent(r.block->low),
+        signed_percent(r.block->high),
+        sign_is_settled(r) ? "excludes zero" : "includes zero, so the sign is not settled");
+}
+
+std::string signed_percent(double fraction) {
+    return fmt::format("{:+.1f} %", 100 * fraction);
+}
+
+TableCell cell_of(const Resolved& r) {
+    if (!std::isfinite(r.value)) return {};
+    return r.block ? TableCell(r.value, {r.block->low, r.block->high}) : TableCell(r.value);
+}
+
+Json json_of(const Resolved& r) {
+    Json blocks = Json::array();
+    for (const BlockGain& b : r.blocks)
+        blocks.push_back({{"first_start", b.first_start},
+                          {"last_start", b.last_start},
+                          {"windows", b.windows},
+                          {"gain", number(b.value)}});
+    return {{"gain", number(r.value)},
+            {"interval", r.block ? Json{number(r.block->low), number(r.block->high)} : Json()},
+            {"windows", r.windows},
+            {"blocks", std::move(blocks)}};
+}
+
+}  // namespace verdigris
