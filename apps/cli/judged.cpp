@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 #include "arguments.h"
@@ -21,8 +22,15 @@ namespace {
 std::string judged_name(const fs::path& input, std::set<std::string>& taken) {
     const std::string whole = input_name(input);
     std::error_code error;
-    const std::string stem =
-        fs::is_directory(input, error) ? whole : fs::path(whole).stem().string();
+    std::string stem = fs::is_directory(input, error) ? whole : fs::path(whole).stem().string();
+    // The name goes into tables, pages and JSON: what is no UTF-8 or no character is replaced here,
+    // once. A sheet would take a first "=" for a formula.
+    stem = Json::parse(Json(stem).dump(-1, ' ', false, Json::error_handler_t::replace))
+               .get<std::string>();
+    for (char& c : stem)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+    if (!stem.empty() && std::string_view("=+-@").find(stem.front()) != std::string_view::npos)
+        stem.insert(0, "_");
     std::string name = stem;
     for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{} ({})", stem, i);
     return name;
@@ -89,6 +97,17 @@ std::vector<Observation> observe_all(Session& session, const JudgeArguments& a) 
 
 EvaluationProtocol protocol_for(Session& session, const JudgeArguments& a,
                                 const std::vector<Observation>& observations) {
+    // A stride is samples per unit: of two recordings it means the same only on one axis.
+    for (const Observation& o : observations) {
+        const int first = observations.front().axis.samples_per_unit;
+        if (o.axis.samples_per_unit == first) continue;
+        throw Error(
+            ErrorCode::refused,
+            fmt::format("{} has {} samples per unit and {} has {}: their windows would span "
+                        "different units; judge recordings of like length together",
+                        observations.front().source_name, first, o.source_name,
+                        o.axis.samples_per_unit));
+    }
     EvaluationProtocol protocol;
     if (!a.protocol.empty()) {
         protocol = read_protocol(a.protocol);
@@ -151,20 +170,22 @@ std::vector<Entrant> entrants_from(const std::string& names) {
 
 void check_results_folder(const fs::path& output, bool force) {
     std::error_code error;
-    if (!fs::exists(output, error) || force) return;
+    if (!fs::exists(output, error)) return;
     if (!fs::is_directory(output, error))
         throw Error(ErrorCode::failed, "is a file, not a folder; choose another with -o",
                     output.string());
+    for (const char* mark : {kEvaluationFile, kRecordFile, "characterization.json", "drift.json"})
+        if (fs::is_regular_file(output / mark, error)) return;  // ours: replaced as a whole
     for (const fs::directory_entry& entry : fs::directory_iterator(output, error)) {
         const std::string name = entry.path().filename().string();
-        static const std::set<std::string> kOurs{
-            "report.html", "tables",       "figures",  kEvaluationFile,      kRecordFile,
-            kProtocolFile, kDriftMapsFile, kDriftFile, kCharacterizationFile};
-        if (kOurs.count(name) == 0 && !name.starts_with(".partial-"))
+        if (name.starts_with(".partial-")) continue;
+        // Not even --force replaces what is not ours: these would go as whole folders.
+        const bool in_the_way = name == "tables" || name == "figures" || name == "report.html";
+        if (in_the_way || !force)
             throw Error(ErrorCode::refused,
-                        fmt::format("holds other files ('{}'); choose an empty folder or use "
-                                    "--force",
-                                    name),
+                        fmt::format("holds '{}', which is not a result of ours; choose an empty "
+                                    "folder{}",
+                                    name, in_the_way ? "" : " or use --force"),
                         output.string());
     }
 }

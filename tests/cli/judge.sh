@@ -82,8 +82,35 @@ bad 2 "persistence gains nothing" drift "${two[@]}" --forecasters persistence
 cp -r "$scratch/ev" "$scratch/tampered"
 awk -F, -v OFS=, 'NR == 9 { $5 = 3 * $5 } { print }' "$scratch/ev/tables/windows_all.csv" \
   >"$scratch/tampered/tables/windows_all.csv"
-expect 4 "evaluation\.json says a mean error" "$verdigris" audit "$scratch/tampered"
+expect 4 "evaluation\.json says the mean error" "$verdigris" audit "$scratch/tampered"
 grep -q "1 finding" "$scratch/stderr" || fail "not one finding"
 expect 3 "is not there" "$verdigris" audit "$scratch/mine"
 expect 3 "is not there" "$verdigris" audit "$scratch/nowhere"
+
+# Other tampering: a gain, a window counted twice, the record of another evaluation.
+tampered() { # tampered FILE SED-EXPRESSION
+  rm -rf "$scratch/tampered" && cp -r "$scratch/judged" "$scratch/tampered"
+  sed -i "$2" "$scratch/tampered/$1"
+  ! cmp -s "$scratch/judged/$1" "$scratch/tampered/$1" || fail "nothing was tampered with in $1"
+  expect 4 "spoil" "$verdigris" audit "$scratch/tampered"
+}
+"$verdigris" evaluate "$scratch/chamber.mkv" "$scratch/air.mkv" -o "$scratch/judged" --windows 30 --quiet ||
+  fail "evaluate for the audit"
+"$verdigris" audit "$scratch/judged" --quiet || fail "an untouched result is not clean"
+tampered evaluation.json '0,/"gain": [-0-9.e]*/s//"gain": 0.99/'
+tampered tables/windows_all.csv '2p'
+tampered record.json 's/"starts":\[[0-9]*,/"starts":[/'
+
+# A folder of somebody's own is not taken for a result of ours.
+mkdir -p "$scratch/paper/figures" && echo mine >"$scratch/paper/figures/photo.txt"
+for force in "" --force; do
+  # shellcheck disable=SC2086
+  expect 4 "figures" "$verdigris" evaluate "$scratch/chamber.mkv" --single -o "$scratch/paper" $force
+done
+[ -s "$scratch/paper/figures/photo.txt" ] || fail "a file of the user's is gone"
+
+# Recordings whose units mean different numbers of samples are not judged together.
+"$verdigris" simulate --size 64x48 --frames 984 -o "$scratch/long.mkv" --quiet
+expect 4 "samples per unit" "$verdigris" evaluate "$scratch/chamber.mkv" "$scratch/long.mkv" -o "$scratch/mixed"
+expect_nothing "$scratch/mixed"
 finish

@@ -25,6 +25,10 @@ std::string sentence_of(const Direction& d, const EntrantVerdict& v, const Entra
     const auto error = [](double e) { return fmt::format("{:.3g}", e); };
     if (!std::isfinite(v.gain))
         return fmt::format("{}: {} cannot be judged, since nothing changed.", d.label(), v.name);
+    // chosen: what rounds to 0.0 % is neither better nor worse.
+    if (std::fabs(v.gain) < 5e-4)
+        return fmt::format("{}: {} equals holding still (foreground MSE {} against {}).", d.label(),
+                           v.name, error(v.error), error(v.persistence));
     std::string text =
         fmt::format("{}: {} is {:.1f} % {} than holding still (foreground MSE {} against {}).",
                     d.label(), v.name, 100 * std::fabs(v.gain), v.gain >= 0 ? "better" : "worse",
@@ -174,10 +178,16 @@ Report evaluation_report(const Evaluation& evaluation, const std::vector<Directi
     report.sections.push_back(std::move(verdict));
 
     ReportSection leaks{"audit", "Leakage audit", {}};
-    if (evaluation.notes.empty())
-        leaks.blocks.push_back(
-            Paragraph{"Nothing leaked: no window crosses a split, no frame is used twice, no "
-                      "held-out recording had a part in training or selection."});
+    const bool leaked =
+        std::any_of(evaluation.notes.begin(), evaluation.notes.end(), [](const Status& s) {
+            return s.severity == Severity::refusal && s.id != "windows_skipped";
+        });
+    if (!leaked)
+        leaks.blocks.push_back(Paragraph{
+            p.single
+                ? "Nothing was held out, so nothing could leak into it."
+                : "Nothing leaked: no window crosses a split, no identical frame is used twice, "
+                  "no held-out recording had a part in training or selection."});
     for (const Status& s : evaluation.notes) leaks.blocks.push_back(s);
     report.sections.push_back(std::move(leaks));
 

@@ -88,7 +88,10 @@ Table interval_table(const std::vector<DirectionVerdict>& list) {
     table.title = "Gains with intervals";
     table.caption =
         "Gain over persistence with nominal 95 % intervals by three bootstraps: windows one by one "
-        "(naive, far too narrow), non-overlapping blocks, blocks at any offset.";
+        "(naive, far too narrow), non-overlapping blocks, blocks at any offset. The last draw the "
+        "middle "
+        "of a recording more often than its ends: where those differ, the gain itself can lie "
+        "outside.";
     table.group_header = "direction";
     table.columns = {{"forecaster", "Forecaster", Align::left},
                      {"block", "gain, blocks", Align::right, kGain, true},
