@@ -59,7 +59,7 @@ SimulationSpec air() {
     s.susceptibility.spread = 0.4;
     s.susceptibility.coarse = 0.3;
     s.susceptibility.drip = 0.25;
-    s.oxide.initial_nm = 7.5;               // tuned
+    s.oxide.initial_nm = 7.5;              // tuned
     s.oxide.growth.parabolic_rate = 0.68;  // tuned
     s.oxide.chemistry.fresh = 0.6;
     s.environment.noise = 0.3;
