@@ -98,6 +98,11 @@ std::string result_sentence(const RecordingDrift& drift, const std::string& fore
     // chosen: where less than half is left the larger part was on the camera.
     if (least < 0.5 * raw.gain.value)
         return text + fmt::format("of the result less than half survives{}.", sure);
+    // What was never settled cannot survive; it can only stay.
+    if (!sign_is_settled(raw.gain))
+        return text +
+               fmt::format("the gain stays, but its sign was not settled as recorded either{}.",
+                           sure);
     return text + fmt::format("the result survives{}.", sure);
 }
 
