@@ -15,7 +15,7 @@ namespace {
 
 using namespace verdigris;
 
-constexpr int kAges = 8, kTile = 150, kGap = 6, kLabel = 92, kHead = 30;
+constexpr int kAges = 8, kTile = 116, kGap = 6, kLabel = 92, kHead = 30;
 
 // The square about the specimen, as a crop would show it, scaled to a tile by Cairo.
 void draw_tile(cairo_t* context, ImageView<const SrgbU8> frame, double x, double y) {
