@@ -11,29 +11,11 @@
 
 #include "verdigris/observe/noise.h"
 #include "verdigris/observe/observe.h"
+#include "verdigris/observe/testing/drifting_store.h"
 
 namespace verdigris::testing {
 
-class PixelStore final : public SampleStore {
-  public:
-    using Pixel = std::function<SrgbF(int x, int y, int t)>;
-    PixelStore(int width, int height, int count, Pixel pixel)
-        : width_(width), height_(height), count_(count), pixel_(std::move(pixel)) {}
-    int count() const override { return count_; }
-    int width() const override { return width_; }
-    int height() const override { return height_; }
-    Image<SrgbF> image(int index) const override {
-        Image<SrgbF> out(width_, height_);
-        for (int y = 0; y < height_; ++y) {
-            for (int x = 0; x < width_; ++x) out(x, y) = pixel_(x, y, index);
-        }
-        return out;
-    }
-
-  private:
-    int width_, height_, count_;
-    Pixel pixel_;
-};
+using PixelStore = FunctionStore;
 
 /// Numbers that depend on nothing but their argument: standard normal, by Box and Muller's method
 /// on splitmix64.
