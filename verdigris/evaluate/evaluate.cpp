@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <set>
 #include <utility>
 
 #include "verdigris/error.h"
+#include "verdigris/evaluate/foreground.h"
 #include "verdigris/evaluate/held_recording.h"
 #include "verdigris/evaluate/watched_store.h"
 #include "verdigris/evaluate/window_scorer.h"
-#include "verdigris/observe/noise.h"
 #include "verdigris/observe/with_samples.h"
 #include "verdigris/pixels/parallel_rows.h"
 
@@ -354,8 +353,7 @@ Evaluation evaluate(const EvaluationProtocol& protocol, std::span<const Observat
         }
         direction.plan = entry.plan;
         direction.sigma = entry.observation->noise.sigma;
-        direction.tau = protocol.tau.value_or(
-            std::max(noise_from(direction.sigma, std::nullopt).tau, protocol.tau_floor));
+        direction.tau = foreground_threshold(protocol, direction.sigma);
         DirectionRecord used;
         used.held_out = direction.held_out;
         const std::vector<Forecaster> forecasters =

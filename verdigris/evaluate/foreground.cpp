@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+
+#include "verdigris/observe/noise.h"
 
 namespace verdigris {
 namespace {
@@ -25,6 +28,10 @@ void sort_columns(float* rows, std::size_t n, std::size_t width) {
 }
 
 }  // namespace
+
+double foreground_threshold(const EvaluationProtocol& protocol, double sigma) {
+    return protocol.tau.value_or(std::max(noise_from(sigma, std::nullopt).tau, protocol.tau_floor));
+}
 
 PixelWeights weights_of(const Mask& mask, int width, int height) {
     PixelWeights out;

@@ -21,6 +21,10 @@ struct PixelWeights {
 /// All pixels where `mask` is empty.
 PixelWeights weights_of(const Mask& mask, int width, int height);
 
+/// What counts as a change: the protocol's tau, else from the noise of one sample, at least its
+/// floor.
+double foreground_threshold(const EvaluationProtocol& protocol, double sigma);
+
 /// The context's canvas: per pixel and channel the median of its frames; of an even number the mean
 /// of the two middle values. O(n^2) per pixel, vectorized; `scratch` keeps its memory between
 /// calls.

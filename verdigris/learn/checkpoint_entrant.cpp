@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/learn/checkpoint_entrant.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "verdigris/error.h"
+
+namespace verdigris {
+namespace {
+
+void check_fits(const NamedCheckpoint& c, const EvaluationProtocol& protocol) {
+    const NetworkConfig& config = c.checkpoint.network->config();
+    const TrainingFacts& facts = c.checkpoint.facts;
+    const auto refuse = [&](const std::string& why) {
+        throw Error(ErrorCode::usage, why, c.path.string());
+    };
+    if (config.context != protocol.context) {
+        refuse(fmt::format("was trained on contexts of {} frames; the protocol has {}",
+                           config.context, protocol.context));
+    }
+    if (facts.stride != protocol.stride) {
+        refuse(fmt::format("was trained with {} samples per unit; the protocol has {}",
+                           facts.stride, protocol.stride));
+    }
+}
+
+std::string described(const NamedCheckpoint& c) {
+    const TrainingFacts& f = c.checkpoint.facts;
+    return fmt::format("{} (learned from {}, samples {} to {})", c.path.string(), f.recording,
+                       f.train.begin, f.train.end - 1);
+}
+
+}  // namespace
+
+Entrant checkpoint_entrant(std::string name, std::vector<NamedCheckpoint> checkpoints,
+                           const EvaluationProtocol& protocol) {
+    if (checkpoints.empty()) throw Error(ErrorCode::usage, "an entrant needs a checkpoint");
+    for (const NamedCheckpoint& c : checkpoints) {
+        check_fits(c, protocol);
+        if (c.checkpoint.network->config() != checkpoints.front().checkpoint.network->config()) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("is another network than {}: they cannot be one entrant",
+                                    checkpoints.front().path.string()),
+                        c.path.string());
+        }
+    }
+    Entrant entrant;
+    entrant.name = name;
+    auto shared = std::make_shared<std::vector<NamedCheckpoint>>(std::move(checkpoints));
+    entrant.train = [name, shared,
+                     horizons = protocol.horizons](const std::vector<TrainingSource>& sources) {
+        for (const TrainingSource& source : sources) {
+            for (const NamedCheckpoint& c : *shared) {
+                const TrainingFacts& facts = c.checkpoint.facts;
+                const int size = c.checkpoint.network->config().size;
+                // Splits first: only then may the samples be read.
+                if (facts.train != source.train || facts.validation != source.validation ||
+                    source.observation->width() != size || source.observation->height() != size ||
+                    (!facts.source_sha256.empty() &&
+                     facts.source_sha256 != source.observation->source_sha256)) {
+                    continue;
+                }
+                if (learned_data_hash(*source.observation->store, source.train,
+                                      source.validation) != facts.data_sha256) {
+                    continue;
+                }
+                return as_forecaster(c.checkpoint.network, name, units_to(horizons));
+            }
+        }
+        std::vector<std::string> have, want;
+        for (const NamedCheckpoint& c : *shared) have.push_back(described(c));
+        for (const TrainingSource& s : sources) {
+            want.push_back(
+                fmt::format("{} (samples {} to {})", s.name, s.train.begin, s.train.end - 1));
+        }
+        throw Error(ErrorCode::refused,
+                    fmt::format("no checkpoint of {} learned from what may be learned from here: "
+                                "there is {}; it would have to be {}. Train one more, or judge "
+                                "one recording only with --hold-out",
+                                name, fmt::join(have, ", "), fmt::join(want, " or ")));
+    };
+    return entrant;
+}
+
+std::vector<Entrant> checkpoint_entrants(std::vector<NamedCheckpoint> checkpoints,
+                                         const EvaluationProtocol& protocol) {
+    // Kind, then how many before it learned from the same samples.
+    std::map<std::pair<NetworkKind, int>, std::vector<NamedCheckpoint>> groups;
+    std::map<std::pair<NetworkKind, std::string>, int> seen;
+    for (NamedCheckpoint& c : checkpoints) {
+        const NetworkKind kind = c.checkpoint.network->config().kind;
+        const int again = seen[{kind, c.checkpoint.facts.data_sha256}]++;
+        groups[{kind, again}].push_back(std::move(c));
+    }
+    std::vector<Entrant> entrants;
+    for (auto& [key, group] : groups) {
+        const std::string name = key.second == 0
+                                     ? to_string(key.first)
+                                     : fmt::format("{} {}", to_string(key.first), key.second + 1);
+        entrants.push_back(checkpoint_entrant(name, std::move(group), protocol));
+    }
+    return entrants;
+}
+
+}  // namespace verdigris

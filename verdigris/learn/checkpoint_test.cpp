@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/learn/checkpoint.h"
+
+#include <gtest/gtest.h>
+#include <torch/utils.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+
+#include "verdigris/error.h"
+#include "verdigris/files/atomic_file.h"
+#include "verdigris/files/safetensors.h"
+#include "verdigris/learn/network_parts.h"
+#include "verdigris/learn/testing.h"
+
+namespace verdigris {
+namespace {
+
+using namespace verdigris::testing;
+
+TrainingFacts some_facts() {
+    TrainingFacts f;
+    f.recording = "plate \"A\"";
+    f.data_sha256 = std::string(64, 'a');
+    f.train = {17, 509};
+    f.validation = {649, 895};
+    f.epoch = 7, f.epochs = 12, f.batch = 4, f.threads = 2, f.device = "cpu";
+    f.seed = 0xffffffffffffffffu;
+    f.learning_rate = 2e-4, f.weight_decay = 1e-2, f.clip_norm = 1;
+    f.validation_error = 1.234e-5, f.validation_persistence = 2e-5;
+    f.version = "0.1.0", f.torch = "1.13";
+    return f;
+}
+
+class Checkpoints : public ::testing::TestWithParam<NetworkKind> {};
+INSTANTIATE_TEST_SUITE_P(, Checkpoints, ::testing::ValuesIn(kNetworkKinds),
+                         [](const auto& one) { return to_string(one.param); });
+
+TEST_P(Checkpoints, ComeBackToTheBit) {
+    const ScratchFolder folder("checkpoint");
+    std::filesystem::create_directories(folder.path());
+    const Network network({.kind = GetParam(), .context = 3, .size = 16}, 4);
+    write_checkpoint(folder.path() / "a.safetensors", network, some_facts());
+    const Checkpoint back = read_checkpoint(folder.path() / "a.safetensors");
+    EXPECT_EQ(back.network->config(), network.config());
+    EXPECT_EQ(back.facts, some_facts());
+    const auto a = network.parts().module->named_parameters(),
+               b = back.network->parts().module->named_parameters();
+    ASSERT_EQ(a.size(), b.size());
+    for (const auto& item : a) EXPECT_TRUE(torch::equal(item.value(), b[item.key()])) << item.key();
+}
+
+/// The sentence of what reading gives after `change`; fails if it reads.
+std::string refused(const std::function<void(SafetensorsFile&)>& change) {
+    const ScratchFolder folder("hostile");
+    std::filesystem::create_directories(folder.path());
+    const auto path = folder.path() / "x.safetensors";
+    write_checkpoint(path, Network({.context = 3, .size = 16}), some_facts());
+    SafetensorsFile file = read_safetensors(path);
+    change(file);
+    write_safetensors(path, file);
+    try {
+        read_checkpoint(path);
+    } catch (const Error& e) {
+        EXPECT_EQ(e.code(), ErrorCode::bad_input);
+        EXPECT_EQ(e.where(), path.string());
+        return e.sentence();
+    }
+    ADD_FAILURE() << "was read";
+    return "";
+}
+
+TEST(Checkpoint, OfAnotherNetworkIsRefused) {
+    EXPECT_NE(refused([](SafetensorsFile& f) {
+                  f.metadata["network"] = R"({"kind":"convlstm","context":3,"size":16})";
+              }).find("lacks the weights"),
+              std::string::npos);
+    // Another context, another first layer.
+    EXPECT_NE(refused([](SafetensorsFile& f) {
+                  f.metadata["network"] = R"({"kind":"patinanet","context":4,"size":16})";
+              }).find("where the network has"),
+              std::string::npos);
+    EXPECT_NE(refused([](SafetensorsFile& f) {
+                  f.metadata["network"] = R"({"kind":"patinanet","context":4000,"size":16})";
+              }).find("context"),
+              std::string::npos);
+    EXPECT_NE(refused([](SafetensorsFile& f) { f.metadata["network"] = "[[[[[["; }).find("network"),
+              std::string::npos);
+    EXPECT_NE(refused([](SafetensorsFile& f) { f.metadata.clear(); }).find("no checkpoint"),
+              std::string::npos);
+    EXPECT_NE(refused([](SafetensorsFile& f) {
+                  f.metadata["training"] = R"({"recording":5})";
+              }).find("recording"),
+              std::string::npos);
+}
+
+TEST(Checkpoint, WithDamagedTensorsIsRefused) {
+    EXPECT_NE(refused([](SafetensorsFile& f) {
+                  float nan = std::numeric_limits<float>::quiet_NaN();
+                  std::memcpy(f.tensors[1].bytes.data(), &nan, sizeof nan);
+              }).find("not finite"),
+              std::string::npos);
+    EXPECT_NE(refused([](SafetensorsFile& f) {
+                  f.tensors.push_back(float_tensor("extra", {}, std::vector<float>{1}));
+              }).find("extra"),
+              std::string::npos);
+    EXPECT_NE(refused([](SafetensorsFile& f) { f.tensors.pop_back(); }).find("lacks"),
+              std::string::npos);
+    EXPECT_NE(refused([](SafetensorsFile& f) {
+                  f.tensors[0].type =
+                      f.tensors[0].type == TensorType::f32 ? TensorType::i32 : TensorType::f32;
+              }).find(""),
+              std::string::npos);
+}
+
+TEST(Checkpoint, CutAnywhereIsRefused) {
+    const ScratchFolder folder("cut");
+    std::filesystem::create_directories(folder.path());
+    const auto path = folder.path() / "x.safetensors";
+    write_checkpoint(path, Network({.context = 3, .size = 16}), some_facts());
+    const auto bytes = read_file(path);
+    for (std::size_t length = 0; length < bytes.size(); length += 1 + length / 3) {
+        write_file(path, std::span(bytes.data(), length));
+        EXPECT_THROW(read_checkpoint(path), Error) << length;
+    }
+    EXPECT_THROW(read_checkpoint(folder.path() / "absent.safetensors"), Error);
+    EXPECT_THROW(read_checkpoint(folder.path()), Error);
+}
+
+TEST(Checkpoint, DataHashIsOfTheSamplesAndTheirRoles) {
+    const Observation one = changing_recording(16, 40, "one"),
+                      two = changing_recording(16, 40, "two");
+    const std::string hash = learned_data_hash(*one.store, {0, 20}, {30, 40});
+    EXPECT_EQ(hash, learned_data_hash(*two.store, {0, 20}, {30, 40}));  // names do not matter
+    EXPECT_NE(hash, learned_data_hash(*one.store, {0, 21}, {30, 40}));
+    EXPECT_NE(hash, learned_data_hash(*one.store, {30, 40}, {0, 20}));
+}
+
+}  // namespace
+}  // namespace verdigris

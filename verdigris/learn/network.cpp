@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <ATen/Parallel.h>
+#include <fmt/format.h>
+#include <torch/cuda.h>
+#include <torch/utils.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "verdigris/error.h"
+#include "verdigris/learn/learn.h"
+#include "verdigris/learn/network_parts.h"
+
+namespace verdigris {
+
+std::string to_string(NetworkKind kind) {
+    switch (kind) {
+        case NetworkKind::patinanet:
+            return "patinanet";
+        case NetworkKind::convlstm:
+            return "convlstm";
+        case NetworkKind::predformer:
+            return "predformer";
+        case NetworkKind::horizonnet:
+            return "horizonnet";
+    }
+    return "";
+}
+
+NetworkKind network_kind(std::string_view name) {
+    std::string all;
+    for (const NetworkKind kind : kNetworkKinds) {
+        if (to_string(kind) == name) return kind;
+        all += (all.empty() ? "" : ", ") + to_string(kind);
+    }
+    throw Error(ErrorCode::usage, fmt::format("there is no network '{}'; there are {}", name, all));
+}
+
+void check_network_config(const NetworkConfig& config) {
+    if (config.context < 2 || config.context > 64) {
+        throw Error(ErrorCode::usage, fmt::format("a network's context must be 2 to 64 frames, "
+                                                  "not {}",
+                                                  config.context));
+    }
+    if (config.size < 16 || config.size > 1024 || config.size % 8 != 0) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("a network's frames must be 16 to 1024 pixels wide, a multiple "
+                                "of 8, not {}",
+                                config.size));
+    }
+}
+
+Device device_from(std::string_view name) {
+    if (name == "cpu") return Device::cpu;
+    if (name != "cuda") {
+        throw Error(ErrorCode::usage,
+                    fmt::format("there is no device '{}'; there are cpu, cuda", name));
+    }
+    if (!torch::cuda::is_available()) {
+        throw Error(ErrorCode::failed,
+                    "CUDA was asked for, and this libtorch finds none; use --device cpu");
+    }
+    return Device::cuda;
+}
+
+torch::Device torch_device(Device device) {
+    return device == Device::cuda ? torch::Device(torch::kCUDA) : torch::Device(torch::kCPU);
+}
+
+void set_network_threads(int threads) {
+    at::set_num_threads(std::max(threads, 1));
+}
+
+Network::Network(const NetworkConfig& config, std::uint64_t seed)
+    : parts_(std::make_unique<Parts>()) {
+    check_network_config(config);
+    torch::manual_seed(seed);
+    parts_->config = config;
+    parts_->module = make_module(config);
+}
+Network::~Network() = default;
+Network::Network(Network&&) noexcept = default;
+Network& Network::operator=(Network&&) noexcept = default;
+
+const NetworkConfig& Network::config() const {
+    return parts_->config;
+}
+
+std::int64_t Network::parameter_count() const {
+    std::int64_t count = 0;
+    for (const torch::Tensor& p : parts_->module->parameters()) count += p.numel();
+    return count;
+}
+
+void Network::move_to(Device device) {
+    if (device == Device::cuda) device_from("cuda");
+    parts_->device = torch_device(device);
+    parts_->module->to(parts_->device);
+}
+
+}  // namespace verdigris

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/learn/susceptibility.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+
+#include "verdigris/error.h"
+#include "verdigris/learn/testing.h"
+
+namespace verdigris {
+namespace {
+
+using namespace verdigris::testing;
+
+TEST(Pearson, KnownAnswers) {
+    Image<float> a(4, 1), b(4, 1), flat(4, 1);
+    const float x[] = {1, 2, 3, 4}, y[] = {2, 1, 4, 3};
+    for (int i = 0; i < 4; ++i) a(i, 0) = x[i], b(i, 0) = y[i];
+    EXPECT_NEAR(pearson(a, b, {}), 0.6, 1e-12);
+    EXPECT_NEAR(pearson(a, a, {}), 1, 1e-12);
+    EXPECT_EQ(pearson(a, flat, {}), 0);
+    Mask two(4, 1);
+    two(0, 0) = two(1, 0) = kInside;
+    EXPECT_NEAR(pearson(a, b, two), -1, 1e-12);
+}
+
+Checkpoint fresh(NetworkKind kind, const Observation& source) {
+    Checkpoint c;
+    c.network = std::make_shared<Network>(NetworkConfig{kind, 3, 32}, 2);
+    c.facts.source_sha256 = source.source_sha256;
+    return c;
+}
+
+TEST(Susceptibility, CountsPairsAndTellsTheSource) {
+    const EvaluationProtocol protocol = small_protocol();
+    std::vector<Observation> recordings;
+    recordings.push_back(changing_recording(32, 60, "a"));
+    recordings.push_back(changing_recording(32, 80, "b"));
+    const Checkpoint c = fresh(NetworkKind::patinanet, recordings[0]);
+    const SusceptibilityAnalysis s = analyze_susceptibility(c, protocol, recordings);
+    ASSERT_EQ(s.within.size(), 2u);
+    ASSERT_EQ(s.cross.size(), 1u);
+    const int n = int(s.recordings[0].rho.size()), m = int(s.recordings[1].rho.size());
+    EXPECT_EQ(n, 60 / protocol.span());
+    EXPECT_EQ(m, 80 / protocol.span());
+    EXPECT_EQ(s.within[0].windows.all.count, n * (n - 1) / 2);
+    EXPECT_EQ(s.cross[0].windows.all.count, n * m);
+    EXPECT_TRUE(s.recordings[0].source);
+    EXPECT_FALSE(s.recordings[1].source);
+    // The left half stands still; the right half is the specimen and changes.
+    const Image<float>& change = s.recordings[0].change;
+    EXPECT_EQ(change(3, 20), 0);
+    EXPECT_GT(change(28, 20), 0.02f);
+    for (const auto& w : s.within) {
+        EXPECT_LE(std::abs(w.windows.all.mean), 1);
+        EXPECT_TRUE(std::isfinite(w.windows.specimen.error));
+    }
+    // The same picture all the time gives the same map all the time.
+    EXPECT_GT(s.within[0].windows.all.mean, 0.5);
+}
+
+TEST(Susceptibility, RefusesOtherNetworksAndSizes) {
+    const EvaluationProtocol protocol = small_protocol();
+    std::vector<Observation> recordings;
+    recordings.push_back(changing_recording(32, 60, "a"));
+    EXPECT_THROW(
+        analyze_susceptibility(fresh(NetworkKind::convlstm, recordings[0]), protocol, recordings),
+        Error);
+    std::vector<Observation> small;
+    small.push_back(changing_recording(16, 60, "a"));
+    EXPECT_THROW(analyze_susceptibility(fresh(NetworkKind::patinanet, small[0]), protocol, small),
+                 Error);
+    std::vector<Observation> brief;
+    brief.push_back(changing_recording(32, 20, "a"));
+    EXPECT_THROW(analyze_susceptibility(fresh(NetworkKind::patinanet, brief[0]), protocol, brief),
+                 Error);
+}
+
+}  // namespace
+}  // namespace verdigris

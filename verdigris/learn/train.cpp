@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/learn/train.h"
+
+#include <fmt/format.h>
+#include <torch/nn/utils/clip_grad.h>
+#include <torch/version.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <thread>
+
+#include "verdigris/error.h"
+#include "verdigris/files/atomic_file.h"
+#include "verdigris/learn/augment.h"
+#include "verdigris/learn/network_parts.h"
+#include "verdigris/learn/training_set.h"
+#include "verdigris/learn/training_state.h"
+#include "verdigris/learn/validation.h"
+
+namespace verdigris {
+namespace fs = std::filesystem;
+namespace {
+
+void check_options(const TrainOptions& o) {
+    const auto must = [](bool holds, const char* what) {
+        if (!holds) throw Error(ErrorCode::usage, what);
+    };
+    must(o.epochs >= 1 && o.epochs <= 100000, "epochs must be 1 to 100000");
+    must(o.batch >= 1 && o.batch <= 1024, "the batch must be 1 to 1024 windows");
+    must(o.learning_rate > 0 && o.learning_rate <= 1, "the learning rate must be above 0, up to 1");
+    must(o.weight_decay >= 0 && o.weight_decay < 1, "the weight decay must be 0 or more, below 1");
+    must(o.clip_norm > 0 && std::isfinite(o.clip_norm), "the gradient's limit must be above 0");
+    must(o.max_windows >= 0, "the number of windows cannot be negative");
+    must(o.threads >= 0, "the number of threads cannot be negative");
+}
+
+/// Horizons a step is trained on and their weights in the loss. horizonnet answers each horizon by
+/// itself at full cost: one from each of three strata stands for its stratum. Of step alone.
+struct Horizons {
+    std::vector<int> units;
+    torch::Tensor weights;
+};
+Horizons horizons_of_step(NetworkKind kind, int horizons, std::uint64_t seed, std::int64_t step) {
+    Horizons h;
+    if (kind != NetworkKind::horizonnet || horizons < 4) {
+        h.units = units_to(horizons);
+        h.weights = torch::full({horizons}, 1.0 / horizons);
+        return h;
+    }
+    std::vector<float> weights;
+    for (int i = 0; i < 3; ++i) {
+        const int begin = horizons * i / 3, end = horizons * (i + 1) / 3;
+        const std::vector<int> order =
+            shuffled(end - begin, seed + 1 + std::uint64_t(i), int(step));
+        h.units.push_back(begin + 1 + order.front());
+        weights.push_back(float(end - begin) / float(horizons));
+    }
+    h.weights = torch::tensor(weights);
+    return h;
+}
+
+class Trainer {
+  public:
+    Trainer(const EvaluationProtocol& protocol, const TrainingSource& source,
+            const TrainOptions& options, const fs::path& folder, const Progress& progress)
+        : protocol_(protocol),
+          source_(source),
+          options_(options),
+          folder_(folder),
+          progress_(progress),
+          threads_(options.threads > 0 ? options.threads
+                                       : int(std::max(1u, std::thread::hardware_concurrency()))),
+          set_(protocol, *source.observation, source.train, progress),
+          validation_(protocol, source, progress),
+          chosen_(set_.chosen(options.max_windows)),
+          config_{options.kind, protocol.context, set_.size()} {
+        set_network_threads(threads_);
+        network_ = std::make_shared<Network>(config_, options.seed);
+        network_->move_to(options.device);
+        optimizer_ = make_optimizer(module(), options.learning_rate, options.weight_decay);
+        steps_per_epoch_ = (int(chosen_.size()) + options.batch - 1) / options.batch;
+        set_facts();
+        persistence_ = persistence_error();
+    }
+
+    TrainedNetwork run(const EpochDone& epoch_done) {
+        resume_or_begin();
+        for (int epoch = int(epochs_.size()) + 1; epoch <= options_.epochs; ++epoch) {
+            const auto start = std::chrono::steady_clock::now();
+            EpochRecord record;
+            record.epoch = epoch;
+            record.train_loss = train_epoch(epoch);
+            record.learning_rate = learning_rate(std::int64_t(epoch) * steps_per_epoch_);
+            const ValidationErrors errors =
+                validation_.errors(*network_, options_.batch, progress_);
+            record.validation_error = errors.network;
+            record.validation_persistence = errors.persistence;
+            record.seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            save(record);
+            if (epoch_done) epoch_done(record);
+        }
+        Checkpoint best = read_checkpoint(folder_ / kBestFile);
+        return {best.network, best.facts, epochs_};
+    }
+
+  private:
+    NetworkModule& module() { return *network_->parts().module; }
+
+    void set_facts() {
+        facts_.recording = source_.name;
+        facts_.source_sha256 = source_.observation->source_sha256;
+        facts_.data_sha256 = learned_data_hash(*source_.observation->store, source_.train,
+                                               source_.validation, progress_);
+        facts_.train = source_.train;
+        facts_.validation = source_.validation;
+        facts_.stride = protocol_.stride;
+        facts_.horizons = protocol_.horizons;
+        facts_.epochs = options_.epochs;
+        facts_.batch = options_.batch;
+        facts_.max_windows = options_.max_windows;
+        facts_.threads = threads_;
+        facts_.device = options_.device == Device::cuda ? "cuda" : "cpu";
+        facts_.seed = options_.seed;
+        facts_.learning_rate = options_.learning_rate;
+        facts_.weight_decay = options_.weight_decay;
+        facts_.clip_norm = options_.clip_norm;
+        facts_.augment = options_.augment;
+        facts_.version = VERDIGRIS_VERSION;
+        facts_.torch = TORCH_VERSION;
+    }
+
+    /// Of holding still on the training windows as they are.
+    double persistence_error() {
+        const torch::NoGradGuard frozen;
+        double sum = 0, windows = 0;
+        for (const int index : chosen_) {
+            const torch::Tensor w = set_.windows({index});
+            const torch::Tensor truth = w.narrow(1, protocol_.context, protocol_.horizons);
+            const torch::Tensor tau = torch::full({1}, set_.tau());
+            const WindowErrors e = window_errors_of(w.narrow(1, protocol_.context - 1, 1), truth,
+                                                    foreground_mask(w, protocol_.context, tau),
+                                                    protocol_.min_foreground);
+            sum += e.foreground.mean().item<double>();
+            windows += e.counted.item<double>();
+        }
+        if (!(windows > 0) || !(sum > 0)) {
+            throw Error(ErrorCode::refused,
+                        "nothing changes in the part that would be learned from: too few "
+                        "foreground pixels in every window",
+                        source_.name);
+        }
+        return sum / windows;
+    }
+
+    double learning_rate(std::int64_t step) const {
+        const double all = double(options_.epochs) * steps_per_epoch_;
+        return 0.5 * options_.learning_rate * (1 + std::cos(std::numbers::pi * double(step) / all));
+    }
+
+    void resume_or_begin() {
+        const fs::path last = folder_ / kLastFile;
+        std::error_code error;
+        if (!fs::exists(last, error)) return;
+        if (!options_.resume) {
+            throw Error(ErrorCode::refused,
+                        "holds a run already; go on with it with --resume, or choose another "
+                        "folder",
+                        folder_.string());
+        }
+        const TrainingState state = read_training_state(last, config_, module(), *optimizer_);
+        TrainingFacts same = state.facts;  // what differs from epoch to epoch
+        same.epoch = facts_.epoch;
+        same.validation_error = facts_.validation_error;
+        same.validation_persistence = facts_.validation_persistence;
+        same.version = facts_.version;
+        if (!(same == facts_)) {
+            throw Error(ErrorCode::refused,
+                        "is a run with other options, of another recording or with another "
+                        "number of threads; it could not go on as it began",
+                        folder_.string());
+        }
+        epochs_ = state.epochs;
+        for (const EpochRecord& e : epochs_) best_ = std::min(best_, e.validation_error);
+    }
+
+    double train_epoch(int epoch) {
+        module().train();
+        const std::vector<int> order = shuffled(int(chosen_.size()), options_.seed, epoch);
+        double sum = 0;
+        for (int i = 0; i < steps_per_epoch_; ++i) {
+            const std::int64_t step = std::int64_t(epoch - 1) * steps_per_epoch_ + i;
+            report(progress_, "train", step, std::int64_t(options_.epochs) * steps_per_epoch_);
+            std::vector<int> batch;
+            for (int j = i * options_.batch;
+                 j < std::min((i + 1) * options_.batch, int(order.size())); ++j) {
+                batch.push_back(chosen_[std::size_t(order[std::size_t(j)])]);
+            }
+            set_learning_rate(*optimizer_, learning_rate(step));
+            sum += train_step(batch, epoch, step);
+        }
+        return sum / steps_per_epoch_;
+    }
+
+    double train_step(const std::vector<int>& batch, int epoch, std::int64_t step) {
+        const int n = protocol_.context;
+        torch::Tensor windows = set_.windows(batch).to(network_->parts().device);
+        std::vector<WindowAugmentation> draws;
+        std::vector<float> tau;
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            draws.push_back(options_.augment ? draw_augmentation(options_.seed, step, int(i))
+                                             : WindowAugmentation());
+            tau.push_back(float(set_.tau() * draws.back().gain));
+        }
+        if (options_.augment) windows = augmented(windows, draws);
+        const torch::Device device = network_->parts().device;
+        const torch::Tensor mask = foreground_mask(windows, n, torch::tensor(tau).to(device));
+        const Horizons h = horizons_of_step(options_.kind, protocol_.horizons, options_.seed, step);
+        std::vector<std::int64_t> at;
+        for (const int k : h.units) at.push_back(n + k - 1);
+        const torch::Tensor truth = windows.index_select(1, torch::tensor(at).to(device));
+
+        optimizer_->zero_grad();
+        const torch::Tensor predicted = module().predict(windows.narrow(1, 0, n), h.units);
+        const torch::Tensor loss =
+            window_loss(window_errors_of(predicted, truth, mask, protocol_.min_foreground),
+                        h.weights.to(device), persistence_);
+        const double value = loss.item<double>();
+        loss.backward();
+        const double norm =
+            torch::nn::utils::clip_grad_norm_(module().parameters(), options_.clip_norm);
+        if (!std::isfinite(value) || !std::isfinite(norm)) {
+            throw Error(ErrorCode::failed,
+                        fmt::format("the loss is not a number any more at step {} of epoch {}; "
+                                    "what was saved after earlier epochs stays in {}; try a "
+                                    "smaller --learning-rate",
+                                    step % steps_per_epoch_ + 1, epoch, folder_.string()));
+        }
+        optimizer_->step();
+        return value;
+    }
+
+    void save(const EpochRecord& record) {
+        epochs_.push_back(record);
+        TrainingFacts facts = facts_;
+        facts.epoch = record.epoch;
+        facts.validation_error = record.validation_error;
+        facts.validation_persistence = record.validation_persistence;
+        fs::create_directories(folder_);
+        // The best first: a run that dies in between makes the same best again.
+        if (record.validation_error < best_) {
+            best_ = record.validation_error;
+            write_checkpoint(folder_ / kBestFile, *network_, facts);
+        }
+        write_training_state(folder_ / kLastFile, config_, facts, epochs_, module(), *optimizer_);
+        write_file(folder_ / kMetricsFile, metrics_text(epochs_));
+    }
+
+    const EvaluationProtocol& protocol_;
+    const TrainingSource& source_;
+    const TrainOptions& options_;
+    const fs::path& folder_;
+    const Progress& progress_;
+    int threads_;
+    TrainingSet set_;
+    ValidationSet validation_;
+    std::vector<int> chosen_;
+    NetworkConfig config_;
+    std::shared_ptr<Network> network_;
+    std::unique_ptr<torch::optim::AdamW> optimizer_;
+    int steps_per_epoch_ = 0;
+    TrainingFacts facts_;
+    double persistence_ = 0;
+    std::vector<EpochRecord> epochs_;
+    double best_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+TrainedNetwork train_network(const EvaluationProtocol& protocol, const TrainingSource& source,
+                             const TrainOptions& options, const fs::path& folder,
+                             const Progress& progress, const EpochDone& epoch_done) {
+    check_options(options);
+    check_protocol(protocol);
+    Trainer trainer(protocol, source, options, folder, progress);
+    return trainer.run(epoch_done);
+}
+
+}  // namespace verdigris

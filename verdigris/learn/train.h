@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Training on one recording, as the paper states it: windows of its first half, selection on a
+// later stretch of the same recording, nothing else seen.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "verdigris/evaluate/evaluate.h"
+#include "verdigris/learn/checkpoint.h"
+#include "verdigris/learn/learn.h"
+#include "verdigris/progress.h"
+
+namespace verdigris {
+
+/// Defaults are the paper's, or where it is silent those of docs/models/learn.md.
+struct TrainOptions {
+    NetworkKind kind{NetworkKind::patinanet};
+    int epochs = 12;
+    int batch = 4;                ///< windows per step
+    std::uint64_t seed = 0;       ///< of weights, order and augmentation
+    double learning_rate = 2e-4;  ///< at the first step; a cosine takes it to 0
+    double weight_decay = 1e-2;   ///< of tensors with two dimensions or more
+    double clip_norm = 1;         ///< of the gradient over all weights
+    bool augment = true;
+    int max_windows = 0;  ///< at most so many training windows, evenly spaced; 0: all
+    Device device{Device::cpu};
+    int threads = 0;  ///< of libtorch; 0: all cores. Another number, other last bits
+    /// Go on from last.safetensors in the folder, if there is one; without it a folder that holds a
+    /// run is refused.
+    bool resume = false;
+};
+
+/// After an epoch.
+using EpochDone = std::function<void(const EpochRecord&)>;
+
+struct TrainedNetwork {
+    std::shared_ptr<const Network> network;  ///< of the epoch with the lowest validation error
+    TrainingFacts facts;
+    std::vector<EpochRecord> epochs;
+};
+
+/// Trains on `source` and writes best.safetensors, last.safetensors and metrics.jsonl into
+/// `folder` (made if absent) after every epoch, each whole or not at all. Context, horizons, stride
+/// and foreground are the protocol's; frames must be square, a multiple of 8.
+///
+/// Loss, per batch: (MSE over the foreground + 0.1 MSE over all pixels) / m, m the mean foreground
+/// MSE of persistence over the training windows; it starts near 1. Windows whose foreground is
+/// under protocol.min_foreground count with their second term only. Selection: the protocol's
+/// foreground MSE over all windows in source.validation.
+///
+/// Same seed, same threads, same machine: same weights, whether interrupted and resumed or not.
+/// Memory: the training samples as floats (97 MB at 128 x 128) and 1 to 3 GB of activations.
+/// Progress stages: "load", "train" (steps of all epochs), "validate".
+/// Throws Error{usage}: options. Error{bad_input}: the frames' size, too few samples for a window.
+/// Error{refused}: the folder holds a run of other options; nothing changes in the training
+/// windows. Error{failed}: the loss is not a number (what was saved stays), disk full.
+TrainedNetwork train_network(const EvaluationProtocol& protocol, const TrainingSource& source,
+                             const TrainOptions& options, const std::filesystem::path& folder,
+                             const Progress& progress = {}, const EpochDone& epoch_done = {});
+
+}  // namespace verdigris
