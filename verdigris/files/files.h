@@ -9,5 +9,6 @@
 #include "verdigris/files/image_file.h"
 #include "verdigris/files/npy.h"
 #include "verdigris/files/png.h"
+#include "verdigris/files/safetensors.h"
 #include "verdigris/files/sha256.h"
 #include "verdigris/files/staged_folder.h"
