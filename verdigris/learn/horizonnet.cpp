@@ -27,7 +27,7 @@ torch::Tensor horizon_features(const std::vector<int>& horizons, const torch::Te
             at[std::int64_t(i)][j + half] = float(std::cos(phase));
         }
     }
-    return features.to(like.device());
+    return features.to(like.options());
 }
 
 /// Convolution, group norm, scaled and shifted by the horizon.

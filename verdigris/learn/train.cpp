@@ -2,8 +2,11 @@
 #include "verdigris/learn/train.h"
 
 #include <fmt/format.h>
-#include <torch/nn/utils/clip_grad.h>
+#include <torch/types.h>
+#include <torch/utils.h>
 #include <torch/version.h>
+// It names torch::stack and friends without including them.
+#include <torch/nn/utils/clip_grad.h>
 
 #include <algorithm>
 #include <chrono>

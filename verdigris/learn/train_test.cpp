@@ -12,6 +12,7 @@
 
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
+#include "verdigris/files/safetensors.h"
 #include "verdigris/learn/network_parts.h"
 #include "verdigris/learn/testing.h"
 #include "verdigris/learn/training_set.h"
@@ -51,10 +52,12 @@ TEST_P(Training, OverfitsOneWindow) {
     NetworkModule& module = *network.parts().module;
     const auto optimizer = make_optimizer(module, 1e-3, 0);
     const std::vector<int> units{1, 2, 3, 4};
+    // Attention does not stand the others' pace: at 2e-3 it stays at a tenth.
+    const double rate = GetParam() == NetworkKind::predformer ? 5e-4 : 4e-3;
     double error = persistence;
     int step = 0;
     for (; step < 1500 && error > 0.01 * persistence; ++step) {
-        set_learning_rate(*optimizer, step < 300 ? 4e-3 : 1e-3);
+        set_learning_rate(*optimizer, rate * (step < 250 ? 1 : 0.25));
         optimizer->zero_grad();
         const WindowErrors e = window_errors_of(module.predict(context, units), truth, mask, 8);
         window_loss(e, torch::full({4}, 0.25), persistence).backward();
@@ -184,7 +187,7 @@ TEST(TrainingRun, StopsWhenTheLossIsNoNumber) {
     Observation wild = changing_recording(16, 80);
     wild.store = std::make_shared<PixelStore>(16, 16, 80, [](int x, int y, int t) {
         SrgbF c = drifted(x, y, t / 2.0, 2);
-        if (t == 12) c.r = std::numeric_limits<float>::quiet_NaN();
+        if (t > 12) c.r = 1e25f;  // its square is no float any more
         return c;
     });
     try {
