@@ -97,7 +97,9 @@ void ForecastArguments::add(CLI::App& command) {
         ->capture_default_str();
     command
         .add_option("--forecaster", forecaster,
-                    fmt::format("One of: {}", fmt::join(forecaster_names(), ", ")))
+                    fmt::format("One of: {}; or a network that `train` made, "
+                                "RUN/best.safetensors",
+                                fmt::join(forecaster_names(), ", ")))
         ->capture_default_str();
     command.add_option("--ridge-k", ridge_k, "Ridge of the fit in noise variances; 0: the paper")
         ->capture_default_str()

@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "judged.h"
+#include "learned.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/report/table_formats.h"
 #include "verdigris/results/results.h"
@@ -18,11 +19,15 @@ struct Arguments {
 
 void run(Session& session, const Arguments& a) {
     check_results_folder(a.judge.output, session.force);
-    const std::vector<Entrant> entrants = entrants_from(a.forecasters);
+    std::vector<Entrant> entrants = entrants_from(a.forecasters);
+    const std::vector<std::string> checkpoints = checkpoints_among(a.forecasters);
+    check_checkpoints(checkpoints);
     const std::vector<NamedBlock> blocks =
         a.blocks.empty() ? std::vector<NamedBlock>() : read_blocks(a.blocks);
     const std::vector<Observation> observations = observe_all(session, a.judge);
     const EvaluationProtocol protocol = protocol_for(session, a.judge, observations);
+    for (Entrant& learned : learned_entrants(checkpoints, protocol))
+        entrants.push_back(std::move(learned));
     const Evaluation evaluation = evaluate(protocol, observations, entrants, session.progress());
     const std::vector<DirectionVerdict> list = verdicts(evaluation, blocks);
     Report report = evaluation_report(evaluation, list);
@@ -52,8 +57,12 @@ void add_evaluate(CLI::App& app, Session& session) {
     command
         ->add_option("--forecasters", a->forecasters,
                      "Names with commas between: auto, affinergb, affinergb-per-channel-1 ... (the "
-                     "paper's, unregularized); affinergb-ridge, as `age` has it")
+                     "paper's, unregularized); affinergb-ridge, as `age` has it; checkpoints that "
+                     "`train` made, RUN/best.safetensors")
         ->capture_default_str();
+    command->add_option("--hold-out", a->judge.hold_out,
+                        "Hold out this recording only (its name in the results): for checkpoints "
+                        "that learned from the others");
     command
         ->add_option("--blocks", a->blocks,
                      "TOML with spans of each recording to report gains of: [recording] and "

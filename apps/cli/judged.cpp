@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "arguments.h"
+#include "learned.h"
 #include "stages.h"
 #include "verdigris/evaluate/characterize.h"
 #include "verdigris/forecast/choose.h"
@@ -36,6 +37,17 @@ std::string judged_name(const fs::path& input, std::set<std::string>& taken) {
     return name;
 }
 
+/// At commas; empty names stay, to be complained about.
+std::vector<std::string> split(const std::string& names) {
+    std::vector<std::string> list;
+    for (std::size_t start = 0; start <= names.size();) {
+        const std::size_t end = std::min(names.find(',', start), names.size());
+        list.push_back(names.substr(start, end - start));
+        start = end + 1;
+    }
+    return list;
+}
+
 }  // namespace
 
 void JudgeArguments::add(CLI::App& command, bool several) {
@@ -43,6 +55,12 @@ void JudgeArguments::add(CLI::App& command, bool several) {
         "RECORDING", recordings, "Videos, or folders of photographs; each is held out in turn");
     inputs->required();
     if (!several) inputs->expected(1);
+    add_rules(command);
+    command.add_flag("--single", single,
+                     "One recording by itself: nothing is held out, and the results say so");
+}
+
+void JudgeArguments::add_rules(CLI::App& command) {
     command.add_option("-o,--out", output, "Result folder")->required();
     command.add_option("--protocol", protocol, "TOML file with the rules (docs/PROTOCOL.md)")
         ->check(CLI::ExistingFile);
@@ -70,8 +88,6 @@ void JudgeArguments::add(CLI::App& command, bool several) {
         ->check(CLI::IsMember({"frame", "specimen"}));
     command.add_option("--tau", tau, "Foreground threshold (default: 2.40 times the noise)")
         ->check(CLI::Range(1e-6, 1.0));
-    command.add_flag("--single", single,
-                     "One recording by itself: nothing is held out, and the results say so");
 }
 
 std::vector<Observation> observe_all(Session& session, const JudgeArguments& a) {
@@ -136,23 +152,15 @@ EvaluationProtocol protocol_for(Session& session, const JudgeArguments& a,
     if (a.area == "frame") protocol.area = EvaluatedArea::frame;
     if (a.tau > 0) protocol.tau = a.tau;
     protocol.single = protocol.single || a.single;
+    if (!a.hold_out.empty()) protocol.hold_out = a.hold_out;
     check_protocol(protocol);
     return protocol;
 }
 
 std::vector<Entrant> entrants_from(const std::string& names) {
     std::vector<Entrant> entrants;
-    std::size_t start = 0;
-    while (start <= names.size()) {
-        const std::size_t end = std::min(names.find(',', start), names.size());
-        const std::string name = names.substr(start, end - start);
-        start = end + 1;
-        if (name.ends_with(".safetensors")) {
-            throw Error(
-                ErrorCode::usage,
-                fmt::format("{} is a trained forecaster, which this build cannot run", name));
-        }
-        if (name == "persistence") continue;  // always there
+    for (const std::string& name : split(names)) {
+        if (name == "persistence" || is_checkpoint(name)) continue;  // the first is always there
         ChooseOptions paper;
         paper.ridge_k = 0;
         paper.clamp = false;
@@ -166,6 +174,13 @@ std::vector<Entrant> entrants_from(const std::string& names) {
         entrants.push_back(std::move(entrant));
     }
     return entrants;
+}
+
+std::vector<std::string> checkpoints_among(const std::string& names) {
+    std::vector<std::string> paths;
+    for (const std::string& name : split(names))
+        if (is_checkpoint(name)) paths.push_back(name);
+    return paths;
 }
 
 void check_results_folder(const fs::path& output, bool force) {

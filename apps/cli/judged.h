@@ -25,9 +25,12 @@ struct JudgeArguments {
     std::optional<int> stride, context, horizons, windows;  ///< windows 0: all
     double tau = 0;                                         ///< 0: from the noise
     bool single = false;
+    std::string hold_out;
 
     /// `several`: takes any number of recordings.
     void add(CLI::App& command, bool several);
+    /// The folder and the protocol, without the recordings.
+    void add_rules(CLI::App& command);
 };
 
 /// Every sample of each recording, at the size asked for, named after its file.
@@ -39,9 +42,12 @@ EvaluationProtocol protocol_for(Session& session, const JudgeArguments& argument
                                 const std::vector<Observation>& observations);
 
 /// `auto`, `persistence`, `affinergb...` as training-free entrants. The affine family is the
-/// paper's: no ridge, no clamp; "-ridge" behind a name gives it as the product has it.
+/// paper's: no ridge, no clamp; "-ridge" behind a name gives it as the product has it. Names of
+/// checkpoints are left to learned_entrants.
 /// Throws Error{usage} for a name that is none.
 std::vector<Entrant> entrants_from(const std::string& names);
+/// The checkpoints among them.
+std::vector<std::string> checkpoints_among(const std::string& names);
 
 /// Names of what is in a result folder.
 inline constexpr const char* kEvaluationFile = "evaluation.json";

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "commands.h"
+#include "learned.h"
 #include "session.h"
 #include "verdigris/error.h"
 #include "verdigris/pixels/parallel_rows.h"
@@ -60,6 +61,7 @@ int main(int argc, char** argv) {
     cli::add_characterize(app, session);
     cli::add_drift(app, session);
     cli::add_audit(app, session);
+    cli::add_learned_commands(app, session);
     cli::add_doctor(app, session);
     try {
         app.parse(argc, argv);

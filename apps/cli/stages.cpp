@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "json_of.h"
+#include "learned.h"
 #include "verdigris/color/convert.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/png.h"
@@ -241,8 +242,19 @@ SavedForecast run_forecast(Session& session, const Observation& observation,
                         "memory; a smaller --size or --context takes less",
                         observation.width(), observation.height(), length, bytes / 1e9));
     }
-    const Forecaster forecaster = forecaster_by_name(arguments.forecaster, arguments.options());
-    saved.context = context_from(observation, arguments.context);
+    const bool learned = is_checkpoint(arguments.forecaster);
+    const LearnedForecaster chosen =
+        learned ? learned_forecaster(session, arguments.forecaster, saved.horizons, observation)
+                : LearnedForecaster{forecaster_by_name(arguments.forecaster, arguments.options()),
+                                    arguments.context};
+    const Forecaster& forecaster = chosen.forecaster;
+    saved.context = context_from(observation, chosen.context);
+    if (learned && saved.context.length() < chosen.context) {
+        throw Error(ErrorCode::refused,
+                    fmt::format("has {} unit steps; this network must see {}",
+                                saved.context.length(), chosen.context),
+                    observation.source_name);
+    }
     report(session.progress(), "forecast", 0, 1);
     saved.forecast = forecaster.forecast(saved.context);
     saved.forecast.guards = check_guards(saved.context, saved.forecast, saved.horizons);

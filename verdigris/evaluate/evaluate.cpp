@@ -311,6 +311,18 @@ void score_windows(const EvaluationProtocol& protocol, const Entry& entry,
     }
 }
 
+void check_hold_out(const EvaluationProtocol& protocol, const std::vector<Entry>& entries) {
+    if (protocol.hold_out.empty()) return;
+    std::string names;
+    for (const Entry& e : entries) {
+        if (e.record.name == protocol.hold_out) return;
+        names += (names.empty() ? "" : ", ") + e.record.name;
+    }
+    throw Error(ErrorCode::usage,
+                fmt::format("there is no recording '{}' to hold out; there are {}",
+                            protocol.hold_out, names));
+}
+
 void note_skipped(const Direction& direction, Statuses& notes) {
     const std::size_t all = direction.plan.starts.size(), skipped = direction.skipped.size();
     if (skipped == 0) return;
@@ -343,9 +355,11 @@ Evaluation evaluate(const EvaluationProtocol& protocol, std::span<const Observat
     record.single = protocol.single;
     for (const Entry& e : entries) record.recordings.push_back(e.record);
 
+    check_hold_out(protocol, entries);
     Statuses notes;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const Entry& entry = entries[i];
+        if (!protocol.hold_out.empty() && protocol.hold_out != entry.record.name) continue;
         Direction direction;
         direction.held_out = entry.record.name;
         for (std::size_t j = 0; !protocol.single && j < entries.size(); ++j) {

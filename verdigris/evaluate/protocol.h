@@ -48,6 +48,9 @@ struct EvaluationProtocol {
     int bootstrap_draws = 10000;
     std::uint64_t seed = 0;
     bool single = false;  ///< one recording, training-free forecasters only: labeled as such
+    /// Name of the one recording to hold out, for checkpoints that learned from the others; empty:
+    /// each in turn.
+    std::string hold_out;
 
     /// Samples from a window's first to its last: (n + K - 1) stride, 140.
     int span() const { return (context + horizons - 1) * stride; }

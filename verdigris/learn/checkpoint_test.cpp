@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <torch/utils.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <functional>
@@ -38,8 +37,7 @@ INSTANTIATE_TEST_SUITE_P(, Checkpoints, ::testing::ValuesIn(kNetworkKinds),
                          [](const auto& one) { return to_string(one.param); });
 
 TEST_P(Checkpoints, ComeBackToTheBit) {
-    const ScratchFolder folder("checkpoint");
-    std::filesystem::create_directories(folder.path());
+    const ScratchFolder folder;
     const Network network({.kind = GetParam(), .context = 3, .size = 16}, 4);
     write_checkpoint(folder.path() / "a.safetensors", network, some_facts());
     const Checkpoint back = read_checkpoint(folder.path() / "a.safetensors");
@@ -53,8 +51,7 @@ TEST_P(Checkpoints, ComeBackToTheBit) {
 
 /// The sentence of what reading gives after `change`; fails if it reads.
 std::string refused(const std::function<void(SafetensorsFile&)>& change) {
-    const ScratchFolder folder("hostile");
-    std::filesystem::create_directories(folder.path());
+    const ScratchFolder folder;
     const auto path = folder.path() / "x.safetensors";
     write_checkpoint(path, Network({.context = 3, .size = 16}), some_facts());
     SafetensorsFile file = read_safetensors(path);
@@ -115,8 +112,7 @@ TEST(Checkpoint, WithDamagedTensorsIsRefused) {
 }
 
 TEST(Checkpoint, CutAnywhereIsRefused) {
-    const ScratchFolder folder("cut");
-    std::filesystem::create_directories(folder.path());
+    const ScratchFolder folder;
     const auto path = folder.path() / "x.safetensors";
     write_checkpoint(path, Network({.context = 3, .size = 16}), some_facts());
     const auto bytes = read_file(path);

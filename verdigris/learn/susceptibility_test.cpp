@@ -2,7 +2,6 @@
 #include "verdigris/learn/susceptibility.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 

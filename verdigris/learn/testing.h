@@ -2,11 +2,11 @@
 // Small recordings that change, for tests that train.
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "verdigris/evaluate/evaluate.h"
 #include "verdigris/evaluate/testing.h"
+#include "verdigris/files/testing.h"
 
 namespace verdigris::testing {
 
@@ -40,24 +40,5 @@ inline TrainingSource source_of(const Observation& observation,
     const WindowPlan plan = plan_windows(protocol, observation.store->count());
     return {observation.source_name, &observation, plan.splits->train, plan.splits->validation};
 }
-
-/// Removed with what is in it.
-class ScratchFolder {
-  public:
-    explicit ScratchFolder(const std::string& name)
-        : path_(std::filesystem::temp_directory_path() /
-                (name + "-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-                 "-" + std::to_string(getpid()))) {
-        std::filesystem::remove_all(path_);
-    }
-    ~ScratchFolder() {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 }  // namespace verdigris::testing

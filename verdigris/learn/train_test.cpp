@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <torch/optim/adamw.h>
 #include <torch/utils.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -72,7 +71,7 @@ TEST_P(Training, SameSeedSameBytesAndAResumedRunIsTheWholeRun) {
     const Observation o = changing_recording(16, 80);
     const EvaluationProtocol protocol = small_protocol();
     const TrainingSource source = source_of(o, protocol);
-    const ScratchFolder whole("whole"), again("again"), broken("broken");
+    const ScratchFolder whole, again, broken;
     const TrainOptions options = quick_options(GetParam(), 3);
     const TrainedNetwork first = train_network(protocol, source, options, whole.path());
     train_network(protocol, source, options, again.path());
@@ -97,7 +96,7 @@ TEST_P(Training, SameSeedSameBytesAndAResumedRunIsTheWholeRun) {
         EXPECT_EQ(first.epochs[i].validation_error, second.epochs[i].validation_error);
     }
     // And the state itself, moments included.
-    const ScratchFolder other("other");
+    const ScratchFolder other;
     train_network(protocol, source, options, other.path());
     const auto state_a = read_safetensors(whole.path() / kLastFile),
                state_b = read_safetensors(broken.path() / kLastFile);
@@ -107,7 +106,7 @@ TEST_P(Training, SameSeedSameBytesAndAResumedRunIsTheWholeRun) {
 TEST(TrainingRun, StartsAtPersistenceAndKeepsTheBestEpoch) {
     const Observation o = changing_recording(16, 80);
     const EvaluationProtocol protocol = small_protocol();
-    const ScratchFolder folder("best");
+    const ScratchFolder folder;
     int called = 0;
     TrainOptions options = quick_options(NetworkKind::horizonnet, 4);
     options.max_windows = 0;
@@ -135,7 +134,7 @@ TEST(TrainingRun, StartsAtPersistenceAndKeepsTheBestEpoch) {
 TEST(TrainingRun, ReadsNothingOutsideOfItsSplits) {
     const Observation plate = changing_recording(16, 80), other = changing_recording(16, 90, "b");
     const EvaluationProtocol protocol = small_protocol();
-    const ScratchFolder folder("audit");
+    const ScratchFolder folder;
     Entrant entrant;
     entrant.name = "patinanet";
     int run = 0;
@@ -162,7 +161,7 @@ TEST(TrainingRun, RefusesWhatCannotGoOn) {
     const Observation o = changing_recording(16, 80);
     const EvaluationProtocol protocol = small_protocol();
     const TrainingSource source = source_of(o, protocol);
-    const ScratchFolder folder("refuse");
+    const ScratchFolder folder;
     TrainOptions options = quick_options(NetworkKind::convlstm, 1);
     train_network(protocol, source, options, folder.path());
     options.resume = true;
@@ -179,7 +178,7 @@ TEST(TrainingRun, RefusesWhatCannotGoOn) {
 TEST(TrainingRun, StopsWhenTheLossIsNoNumber) {
     const Observation o = changing_recording(16, 80);
     const EvaluationProtocol protocol = small_protocol();
-    const ScratchFolder folder("nan");
+    const ScratchFolder folder;
     TrainOptions options = quick_options(NetworkKind::convlstm, 60);
     options.learning_rate = 1;
     options.clip_norm = 1e30;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <type_traits>
 #include <variant>
@@ -25,7 +26,7 @@ struct Words {
     void (*set)(void*, bool second);
 };
 using Target = std::variant<int*, std::optional<int>*, double*, std::optional<double>*, bool*,
-                            std::uint64_t*, Words>;
+                            std::uint64_t*, std::string*, Words>;
 struct Field {
     std::string_view key;
     Target target;
@@ -65,6 +66,7 @@ std::vector<Field> fields(EvaluationProtocol& p) {
         {"bootstrap_draws", &p.bootstrap_draws, ""},
         {"seed", &p.seed, "of the bootstrap"},
         {"single", &p.single, "one recording by itself, training-free forecasters only"},
+        {"hold_out", &p.hold_out, "name of the one recording to hold out; default: each in turn"},
     };
 }
 
@@ -96,6 +98,7 @@ std::string allowed(const Target& target) {
     if (const Words* w = std::get_if<Words>(&target))
         return fmt::format("\"{}\" and \"{}\"", w->first, w->second);
     if (std::holds_alternative<bool*>(target)) return "true and false";
+    if (std::holds_alternative<std::string*>(target)) return "names in quotes";
     if (std::holds_alternative<double*>(target) ||
         std::holds_alternative<std::optional<double>*>(target))
         return "numbers";
@@ -115,6 +118,10 @@ bool take(const Target& target, const toml::node& node) {
                 const auto flag = node.value_exact<bool>();
                 if (flag) *value = *flag;
                 return flag.has_value();
+            } else if constexpr (std::is_same_v<T, std::string*>) {
+                const auto text = node.value_exact<std::string>();
+                if (text) *value = *text;
+                return text.has_value();
             } else if constexpr (std::is_same_v<T, double*> ||
                                  std::is_same_v<T, std::optional<double>*>) {
                 if (!node.is_number()) return false;
@@ -141,6 +148,11 @@ std::string shown(const Target& target) {
             } else if constexpr (std::is_same_v<T, std::optional<int>*> ||
                                  std::is_same_v<T, std::optional<double>*>) {
                 return *value ? fmt::format("{}", **value) : "";
+            } else if constexpr (std::is_same_v<T, std::string*>) {
+                if (value->empty()) return "";
+                std::ostringstream quoted;  // escapes as TOML wants it
+                quoted << toml::value<std::string>(*value);
+                return quoted.str();
             } else {
                 return fmt::format("{}", *value);
             }

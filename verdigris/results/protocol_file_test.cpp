@@ -32,6 +32,8 @@ TEST_F(ProtocolFile, WhatIsWrittenReadsBack) {
     p.area = EvaluatedArea::specimen;
     p.mask = MaskRule::per_horizon;
     p.single = true;
+    p.hold_out = "plate \"A\" \\ 2";
+    EXPECT_EQ(read_protocol(file(protocol_text(p))).hold_out, p.hold_out);
     EXPECT_EQ(protocol_text(read_protocol(file(protocol_text(p)))), protocol_text(p));
     EXPECT_EQ(protocol_text(read_protocol(file(""))), protocol_text(EvaluationProtocol()));
     const EvaluationProtocol back = read_protocol(file(protocol_text(p)));

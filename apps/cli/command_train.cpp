@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// A network learns how one recording goes on, to be judged on others, or to continue this one.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+
+#include "judged.h"
+#include "learned_commands.h"
+#include "verdigris/error.h"
+#include "verdigris/files/atomic_file.h"
+#include "verdigris/learn/train.h"
+#include "verdigris/report/draw_figure.h"
+#include "verdigris/results/protocol_file.h"
+
+namespace verdigris::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct Arguments {
+    JudgeArguments judge;
+    std::string model, source, device = "cpu";
+    TrainOptions options;
+    bool still = false;
+};
+
+/// Training loss, and the validation error against holding still.
+Figure loss_figure(const TrainedNetwork& trained) {
+    Figure figure;
+    figure.id = "loss";
+    figure.title = "Training";
+    FigurePanel loss, validation;
+    loss.title = "training loss";
+    loss.x.label = validation.x.label = "epoch";
+    loss.y = {"loss (1: persistence, about)", AxisScale::log10};
+    validation.title = "validation, same recording";
+    validation.y = {"foreground MSE", AxisScale::log10};
+    FigureSeries a{trained.facts.recording.empty() ? "loss" : "training windows"}, b{"network"};
+    for (const EpochRecord& e : trained.epochs) {
+        a.points.push_back({double(e.epoch), e.train_loss});
+        b.points.push_back({double(e.epoch), e.validation_error});
+    }
+    loss.series.push_back(a);
+    validation.series.push_back(b);
+    validation.references.push_back({"persistence", trained.facts.validation_persistence});
+    figure.panels = {loss, validation};
+    return figure;
+}
+
+double peak_memory_gb() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) * 1024 / 1e9;
+}
+
+Json json_of(const EpochRecord& e) {
+    return {{"epoch", e.epoch},
+            {"train_loss", e.train_loss},
+            {"validation_error", e.validation_error},
+            {"seconds", e.seconds}};
+}
+
+void run(Session& session, Arguments a) {
+    a.options.kind = network_kind(a.model);
+    a.options.device = device_from(a.device);
+    a.options.augment = !a.still;
+    a.options.threads = session.threads;
+    const fs::path folder = a.judge.output;
+    std::error_code error;
+    if (fs::exists(folder / kLastFile, error) && !a.options.resume) {
+        throw Error(ErrorCode::refused,
+                    "holds a run already; go on with it with --resume, or choose another folder",
+                    folder.string());
+    }
+    a.judge.recordings = {a.source};
+    const std::vector<Observation> observations = observe_all(session, a.judge);
+    const EvaluationProtocol protocol = protocol_for(session, a.judge, observations);
+    const Observation& observation = observations.front();
+    const WindowPlan plan =
+        plan_windows(protocol, observation.store->count(), observation.source_name);
+    if (!plan.splits) {
+        throw Error(ErrorCode::refused, "cannot be trained on: " + plan.splits_problem,
+                    observation.source_name);
+    }
+    const TrainingSource source{observation.source_name, &observation, plan.splits->train,
+                                plan.splits->validation};
+    const NetworkConfig config{a.options.kind, protocol.context, observation.width()};
+    session.say(fmt::format(
+        "training  {}, {:.2f}M parameters, on samples {} to {} of {}; epochs chosen on {} to {}",
+        a.model, double(Network(config).parameter_count()) / 1e6, source.train.begin,
+        source.train.end - 1, source.name, source.validation.begin, source.validation.end - 1));
+    fs::create_directories(folder);
+    write_file(folder / kProtocolFile, protocol_text(protocol));
+    const auto told = [&](const EpochRecord& e) {
+        session.say(
+            fmt::format("epoch {:>3}  loss {:.4f}  validation {:.3e} ({:+.1f} % against "
+                        "persistence)  {:.0f} s",
+                        e.epoch, e.train_loss, e.validation_error,
+                        100 * gain_over(e.validation_error, e.validation_persistence), e.seconds));
+    };
+    const TrainedNetwork trained =
+        train_network(protocol, source, a.options, folder, session.progress(), told);
+    const Figure figure = loss_figure(trained);
+    if (gnuplot_is_installed()) {
+        write_file(folder / "loss.svg", draw_figure(figure, FigureFormat::svg));
+        write_file(folder / "loss.png", draw_figure(figure, FigureFormat::png));
+    } else {
+        session.tell({"figures_left_out", Severity::info, "there is no gnuplot to draw loss.svg"});
+    }
+    const TrainingFacts& f = trained.facts;
+    session.say("");
+    session.say(
+        fmt::format("best      epoch {}: validation {:.3e}, persistence {:.3e} on the same "
+                    "windows of the same recording",
+                    f.epoch, f.validation_error, f.validation_persistence));
+    session.say(
+        fmt::format("Judge it  verdigris evaluate {} OTHER -o RESULTS --forecasters "
+                    "{},affinergb --hold-out OTHER",
+                    a.source, (folder / kBestFile).string()));
+    Json epochs = Json::array();
+    for (const EpochRecord& e : trained.epochs) epochs.push_back(json_of(e));
+    session.result({{"model", a.model},
+                    {"parameters", trained.network->parameter_count()},
+                    {"source", source.name},
+                    {"checkpoint", (folder / kBestFile).string()},
+                    {"best_epoch", f.epoch},
+                    {"validation_error", f.validation_error},
+                    {"validation_persistence", f.validation_persistence},
+                    {"threads", f.threads},
+                    {"peak_memory_gb", peak_memory_gb()},
+                    {"epochs", std::move(epochs)}});
+}
+
+}  // namespace
+
+void add_train(CLI::App& app, Session& session) {
+    auto a = std::make_shared<Arguments>();
+    CLI::App* command =
+        app.add_subcommand("train", "Train a network on a recording (docs/models/learn.md)");
+    command->add_option("MODEL", a->model, "patinanet, convlstm, predformer or horizonnet")
+        ->required();
+    command->add_option("--source", a->source, "Video or folder of photographs to learn from")
+        ->required();
+    a->judge.add_rules(*command);
+    command->add_option("--epochs", a->options.epochs)->capture_default_str();
+    command->add_option("--batch", a->options.batch, "Windows per step")->capture_default_str();
+    command->add_option("--seed", a->options.seed, "Of weights, order and augmentation")
+        ->capture_default_str();
+    command->add_option("--learning-rate", a->options.learning_rate, "At the first step")
+        ->capture_default_str();
+    command->add_option("--train-windows", a->options.max_windows,
+                        "At most so many training windows, evenly spaced (all)");
+    command->add_option("--device", a->device, "cpu or cuda")->capture_default_str();
+    command->add_flag("--no-augment", a->still, "Learn from the windows as they are");
+    command->add_flag("--resume", a->options.resume, "Go on with the run in the folder");
+    session.add_options(*command);
+    command->callback([a, &session] { session.action = [a](Session& s) { run(s, *a); }; });
+}
+
+}  // namespace verdigris::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "learned.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "learned_commands.h"
+#include "verdigris/error.h"
+#include "verdigris/learn/checkpoint.h"
+#include "verdigris/learn/checkpoint_entrant.h"
+
+namespace verdigris::cli {
+
+bool is_checkpoint(const std::string& name) {
+    return name.ends_with(".safetensors");
+}
+
+void add_learned_commands(CLI::App& app, Session& session) {
+    add_train(app, session);
+}
+
+void check_checkpoints(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths) read_checkpoint(path);
+}
+
+std::vector<Entrant> learned_entrants(const std::vector<std::string>& paths,
+                                      const EvaluationProtocol& protocol) {
+    std::vector<NamedCheckpoint> checkpoints;
+    for (const std::string& path : paths) checkpoints.push_back({path, read_checkpoint(path)});
+    return checkpoint_entrants(std::move(checkpoints), protocol);
+}
+
+LearnedForecaster learned_forecaster(Session& session, const std::string& path,
+                                     const std::vector<double>& horizons,
+                                     const Observation& observation) {
+    const Checkpoint checkpoint = read_checkpoint(path);
+    const TrainingFacts& facts = checkpoint.facts;
+    if (facts.source_sha256 != observation.source_sha256) {
+        session.tell({"trained_elsewhere", Severity::caution,
+                      fmt::format("this network learned from {}, not from {}: on specimens they "
+                                  "have never seen, networks have lost to holding still "
+                                  "(docs/RESULTS.md)",
+                                  facts.recording, observation.source_name)});
+    }
+    // Whole units around each horizon; what lies between is interpolated.
+    std::set<int> units;
+    for (const double h : horizons) {
+        if (h <= 0) continue;
+        if (std::floor(h) >= 1) units.insert(int(std::floor(h)));
+        units.insert(int(std::ceil(h)));
+    }
+    if (units.empty()) units.insert(1);
+    if (*units.rbegin() > facts.horizons) {
+        session.tell({"beyond_training", Severity::caution,
+                      fmt::format("this network was trained to look {} units ahead; what it says "
+                                  "of {} units was never checked against anything",
+                                  facts.horizons, *units.rbegin())});
+    }
+    const std::string name = to_string(checkpoint.network->config().kind);
+    return {as_forecaster(checkpoint.network, name, {units.begin(), units.end()}),
+            checkpoint.network->config().context};
+}
+
+}  // namespace verdigris::cli

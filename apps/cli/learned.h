@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Trained forecasters on the command line. Built twice: learned.cpp where there is libtorch,
+// learned_absent.cpp where there is none, which says how to get it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "session.h"
+#include "verdigris/evaluate/evaluate.h"
+#include "verdigris/forecast/forecast.h"
+#include "verdigris/observe/observe.h"
+
+namespace verdigris::cli {
+
+/// Does a name on the command line mean a checkpoint?
+bool is_checkpoint(const std::string& name);
+
+/// train, susceptibility. In a build without libtorch they are refused with a sentence.
+void add_learned_commands(CLI::App& app, Session& session);
+
+/// Reads them: what is wrong with one is told before anything else is done.
+void check_checkpoints(const std::vector<std::string>& paths);
+/// Checkpoints as entrants of an evaluation. Throws as read_checkpoint and checkpoint_entrants.
+std::vector<Entrant> learned_entrants(const std::vector<std::string>& paths,
+                                      const EvaluationProtocol& protocol);
+
+/// A checkpoint as the forecaster of `age`: what it forecasts at `horizons`, and how many frames it
+/// must see. Tells the user if it learned from another recording.
+struct LearnedForecaster {
+    Forecaster forecaster;
+    int context = 0;
+};
+LearnedForecaster learned_forecaster(Session& session, const std::string& path,
+                                     const std::vector<double>& horizons,
+                                     const Observation& observation);
+
+}  // namespace verdigris::cli

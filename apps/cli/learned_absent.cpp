@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include <memory>
+
+#include "learned.h"
+#include "verdigris/error.h"
+
+namespace verdigris::cli {
+namespace {
+
+[[noreturn]] void absent() {
+    throw Error(ErrorCode::usage,
+                "this build has no trained forecasters; `scripts/build_learn.sh` makes one that "
+                "has (it installs libtorch, 550 MB)");
+}
+
+void add(CLI::App& app, Session& session, const char* name, const char* what) {
+    CLI::App* command = app.add_subcommand(name, what);
+    command->allow_extras();
+    session.add_options(*command);
+    command->callback([&session] { session.action = [](Session&) { absent(); }; });
+}
+
+}  // namespace
+
+bool is_checkpoint(const std::string& name) {
+    return name.ends_with(".safetensors");
+}
+
+void add_learned_commands(CLI::App& app, Session& session) {
+    add(app, session, "train", "Train a network on a recording (needs a build with libtorch)");
+    add(app, session, "susceptibility",
+        "What a network believes of a surface (needs a build with libtorch)");
+}
+
+void check_checkpoints(const std::vector<std::string>& paths) {
+    if (!paths.empty()) absent();
+}
+
+std::vector<Entrant> learned_entrants(const std::vector<std::string>& paths,
+                                      const EvaluationProtocol&) {
+    check_checkpoints(paths);
+    return {};
+}
+
+LearnedForecaster learned_forecaster(Session&, const std::string&, const std::vector<double>&,
+                                     const Observation&) {
+    absent();
+}
+
+}  // namespace verdigris::cli
