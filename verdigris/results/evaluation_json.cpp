@@ -47,7 +47,7 @@ Json scores_json(const Direction& d, const EntrantScores& s, const EntrantVerdic
     out["gain"] = number(v->gain);
     out["gain_per_horizon"] = any ? numbers(horizon_gains(d, s)) : Json();
     out["intervals"] = {{"block", interval(v->block)},
-                        {"moving_block", interval(v->moving_block)},
+                        {"circular_block", interval(v->circular_block)},
                         {"naive", interval(v->naive)}};
     out["blocks"] = Json::array();
     for (const BlockGain& b : v->blocks)
@@ -95,7 +95,7 @@ Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& 
                                           {"second", pair.second},
                                           {"difference", number(pair.difference)},
                                           {"block", interval(pair.block)},
-                                          {"moving_block", interval(pair.moving_block)}});
+                                          {"circular_block", interval(pair.circular_block)}});
         out["directions"].push_back(std::move(direction));
     }
     out["notes"] = Json::array();

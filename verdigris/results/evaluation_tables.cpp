@@ -88,21 +88,20 @@ Table interval_table(const std::vector<DirectionVerdict>& list) {
     table.title = "Gains with intervals";
     table.caption =
         "Gain over persistence with nominal 95 % intervals by three bootstraps: windows one by one "
-        "(naive, far too narrow), non-overlapping blocks, blocks at any offset. The last draw the "
-        "middle "
-        "of a recording more often than its ends: where those differ, the gain itself can lie "
-        "outside.";
+        "(naive, far too narrow), non-overlapping blocks, and blocks at any offset of the "
+        "recording "
+        "joined to a circle.";
     table.group_header = "direction";
     table.columns = {{"forecaster", "Forecaster", Align::left},
                      {"block", "gain, blocks", Align::right, kGain, true},
-                     {"moving_block", "moving blocks", Align::right, kGain, true},
+                     {"circular_block", "circular blocks", Align::right, kGain, true},
                      {"naive", "naive", Align::right, kGain, true}};
     for (const DirectionVerdict& d : list) {
         RowGroup group;
         group.title = d.direction->label();
         for (const EntrantVerdict& e : d.entrants) {
             group.rows.push_back({TableCell(e.name), interval_cell(e.gain, e.block),
-                                  interval_cell(e.gain, e.moving_block),
+                                  interval_cell(e.gain, e.circular_block),
                                   interval_cell(e.gain, e.naive)});
         }
         table.groups.push_back(std::move(group));
@@ -121,14 +120,14 @@ Table pair_table(const std::vector<DirectionVerdict>& list) {
     table.columns = {{"first", "First", Align::left},
                      {"second", "Second", Align::left},
                      {"block", "difference, blocks", Align::right, kGain, true},
-                     {"moving_block", "moving blocks", Align::right, kGain, true}};
+                     {"circular_block", "circular blocks", Align::right, kGain, true}};
     for (const DirectionVerdict& d : list) {
         RowGroup group;
         group.title = d.direction->label();
         for (const PairVerdict& p : d.pairs)
             group.rows.push_back({TableCell(p.first), TableCell(p.second),
                                   interval_cell(p.difference, p.block),
-                                  interval_cell(p.difference, p.moving_block)});
+                                  interval_cell(p.difference, p.circular_block)});
         table.groups.push_back(std::move(group));
     }
     return table;
