@@ -10,7 +10,7 @@ namespace verdigris {
 namespace {
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kRecordFormat = "verdigris-evaluation-record/1";
+constexpr const char* kRecordFormat = "verdigris-evaluation-record/2";
 
 Json number(double v) {
     return std::isfinite(v) ? Json(v) : Json(nullptr);
@@ -28,6 +28,18 @@ Json range(SampleRange r) {
 }
 SampleRange range_from(const Json& json) {
     return {json.at(0).get<int>(), json.at(1).get<int>()};
+}
+Json surface(const SurfacePrint& print) {
+    return {{"place", print.place}, {"cells", print.cells}};
+}
+SurfacePrint surface_from(const Json& json, const std::string& where) {
+    SurfacePrint print{json.at("place"), json.at("cells")};
+    // A print of another size would be read beyond its end.
+    constexpr std::size_t kCells =
+        std::size_t(SurfacePrint::kMoments) * SurfacePrint::kSide * SurfacePrint::kSide;
+    if (!print.empty() && print.cells.size() != kCells)
+        throw Error(ErrorCode::bad_input, "has the print of a surface in another size", where);
+    return print;
 }
 double mean(const ErrorTable& t) {
     return t.empty() || t.windows == 0 ? std::nan("") : overall_mean(t);
@@ -114,7 +126,8 @@ Json json_of(const EvaluationRecord& record) {
                                      {"sha256", r.sha256},
                                      {"samples", r.samples},
                                      {"usable", range(r.usable)},
-                                     {"frame_hashes", r.frame_hashes}});
+                                     {"frame_hashes", r.frame_hashes},
+                                     {"surface", surface(r.surface)}});
     for (const DirectionRecord& d : record.directions) {
         Json uses = Json::array();
         for (const SampleUse& u : d.uses)
@@ -141,7 +154,8 @@ EvaluationRecord record_from(const Json& json, const std::string& where) {
         record.single = json.at("single");
         for (const Json& r : json.at("recordings"))
             record.recordings.push_back({r.at("name"), r.at("sha256"), r.at("samples"),
-                                         range_from(r.at("usable")), r.at("frame_hashes")});
+                                         range_from(r.at("usable")), r.at("frame_hashes"),
+                                         surface_from(r.at("surface"), where)});
         for (const Json& d : json.at("directions")) {
             DirectionRecord direction{d.at("held_out"), d.at("trained"), {}};
             for (const Json& u : d.at("uses")) {
