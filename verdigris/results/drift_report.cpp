@@ -131,16 +131,13 @@ Table drift_gain_table(const std::vector<RecordingDrift>& list) {
     table.columns = {
         {"forecaster", "Forecaster", Align::left},    {"correction", "Correction", Align::left},
         {"windows", "windows", Align::right, kCount}, {"error", "error", Align::right, kError},
-        {"gain", "gain", Align::right, kGain, true},  {"blocks", "blocks better", Align::left}};
+        {"gain", "gain", Align::right, kGain, true},  {"blocks", "better in", Align::left}};
     for (const RecordingDrift& d : list) {
         RowGroup group{d.name, {}};
         for (const DriftGain& g : d.gains) {
-            const auto better = std::ranges::count_if(
-                g.gain.blocks, [](const BlockGain& b) { return b.value > 0; });
-            group.rows.push_back(
-                {TableCell(g.forecaster), TableCell(to_string(g.correction)),
-                 TableCell(g.gain.windows), finite_or_missing(g.error), cell_of(g.gain),
-                 TableCell(fmt::format("{} of {}", better, g.gain.blocks.size()))});
+            group.rows.push_back({TableCell(g.forecaster), TableCell(to_string(g.correction)),
+                                  TableCell(g.gain.windows), finite_or_missing(g.error),
+                                  cell_of(g.gain), TableCell(blocks_better(g.gain.blocks))});
         }
         table.groups.push_back(std::move(group));
     }

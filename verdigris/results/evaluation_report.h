@@ -46,7 +46,12 @@ struct DirectionVerdict {
 std::vector<DirectionVerdict> verdicts(const Evaluation& evaluation,
                                        const std::vector<NamedBlock>& blocks = {});
 
-/// Sections: verdict, audit, errors, intervals, blocks, horizons, protocol.
+/// What the page and the terminal say first: of each direction a sentence per forecaster, or, where
+/// none was judged but persistence, how large an error there is to improve on.
+std::vector<std::string> verdict_sentences(const std::vector<DirectionVerdict>& verdicts);
+
+/// Sections: verdict, audit, errors, intervals and blocks (of forecasters besides persistence),
+/// horizons, protocol.
 Report evaluation_report(const Evaluation& evaluation,
                          const std::vector<DirectionVerdict>& verdicts);
 

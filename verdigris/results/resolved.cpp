@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -41,8 +42,25 @@ WindowRatios paired_difference(const WindowRatios& first, const WindowRatios& se
     return difference;
 }
 
+int printed_sign(double fraction) {
+    const double tenths = std::nearbyint(1000 * fraction);
+    return tenths > 0 ? 1 : tenths < 0 ? -1 : 0;
+}
+
 bool sign_is_settled(const Resolved& r) {
-    return r.blocks.size() >= kFewBlocks && r.block && (r.block->low > 0 || r.block->high < 0);
+    return r.blocks.size() >= kFewBlocks && r.block &&
+           (printed_sign(r.block->low) > 0 || printed_sign(r.block->high) < 0);
+}
+
+std::string blocks_better(const std::vector<BlockGain>& blocks) {
+    const auto of_sign = [&](int sign) {
+        return std::ranges::count_if(blocks, [&](const BlockGain& b) {
+            return std::isfinite(b.value) && printed_sign(b.value) == sign;
+        });
+    };
+    std::string text = fmt::format("{} of {} blocks", of_sign(1), blocks.size());
+    if (of_sign(0) > 0) text += fmt::format(" and equal in {}", of_sign(0));
+    return text;
 }
 
 std::string how_sure(const Resolved& r) {
@@ -56,7 +74,7 @@ std::string how_sure(const Resolved& r) {
 }
 
 std::string signed_percent(double fraction) {
-    return fmt::format("{:+.1f} %", 100 * fraction);
+    return printed_sign(fraction) == 0 ? "0.0 %" : fmt::format("{:+.1f} %", 100 * fraction);
 }
 
 TableCell cell_of(const Resolved& r) {
