@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "verdigris/error.h"
+#include "verdigris/results/cells.h"
 
 namespace verdigris {
 namespace {
@@ -12,17 +13,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kRecordFormat = "verdigris-evaluation-record/2";
 
-Json number(double v) {
-    return std::isfinite(v) ? Json(v) : Json(nullptr);
-}
-Json numbers(const std::vector<double>& values) {
-    Json list = Json::array();
-    for (const double v : values) list.push_back(number(v));
-    return list;
-}
-Json interval(const std::optional<Interval>& i) {
-    return i ? Json{number(i->low), number(i->high)} : Json(nullptr);
-}
 Json range(SampleRange r) {
     return Json{r.begin, r.end};
 }
@@ -47,30 +37,26 @@ double mean(const ErrorTable& t) {
 
 Json scores_json(const Direction& d, const EntrantScores& s, const EntrantVerdict* v) {
     const bool any = !d.starts.empty();
-    Json out = {
-        {"trained", s.trained},
-        {"error",
-         {{"mean", number(mean(s.foreground))},
-          {"per_horizon", any ? numbers(horizon_means(s.foreground)) : Json()}}},
-        {"specimen_error", number(mean(s.specimen))},
-        {"delta_e", number(mean(s.delta_e))},
-        {"bias", {number(mean(s.bias[0])), number(mean(s.bias[1])), number(mean(s.bias[2]))}}};
+    Json out = {{"trained", s.trained},
+                {"error",
+                 {{"mean", number_json(mean(s.foreground))},
+                  {"per_horizon", any ? numbers_json(horizon_means(s.foreground)) : Json()}}},
+                {"specimen_error", number_json(mean(s.specimen))},
+                {"delta_e", number_json(mean(s.delta_e))},
+                {"bias",
+                 {number_json(mean(s.bias[0])), number_json(mean(s.bias[1])),
+                  number_json(mean(s.bias[2]))}}};
     if (!v) return out;
-    out["gain"] = number(v->gain);
-    out["gain_per_horizon"] = any ? numbers(horizon_gains(d, s)) : Json();
-    out["intervals"] = {{"block", interval(v->block)},
-                        {"circular_block", interval(v->circular_block)},
-                        {"naive", interval(v->naive)}};
-    out["blocks"] = Json::array();
-    for (const BlockGain& b : v->blocks)
-        out["blocks"].push_back({{"first_start", b.first_start},
-                                 {"last_start", b.last_start},
-                                 {"windows", b.windows},
-                                 {"gain", number(b.value)}});
+    out["gain"] = number_json(v->gain);
+    out["gain_per_horizon"] = any ? numbers_json(horizon_gains(d, s)) : Json();
+    out["intervals"] = {{"block", interval_json(v->block)},
+                        {"circular_block", interval_json(v->circular_block)},
+                        {"naive", interval_json(v->naive)}};
+    out["blocks"] = blocks_json(v->blocks);
     for (const EntrantVerdict::Named& n : v->named)
         out["named_blocks"][n.block.name] = {{"units", {n.block.begin, n.block.end}},
                                              {"windows", n.windows},
-                                             {"gain", number(n.gain)}};
+                                             {"gain", number_json(n.gain)}};
     out["verdict"] = v->sentence;
     return out;
 }
@@ -78,14 +64,7 @@ Json scores_json(const Direction& d, const EntrantScores& s, const EntrantVerdic
 }  // namespace
 
 Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& list) {
-    const EvaluationProtocol& p = evaluation.protocol;
-    Json out = {{"protocol",
-                 {{"context", p.context},
-                  {"horizons", p.horizons},
-                  {"stride", p.stride},
-                  {"area", to_string(p.area)},
-                  {"single", p.single}}},
-                {"directions", Json::array()}};
+    Json out = {{"protocol", protocol_json(evaluation.protocol)}, {"directions", Json::array()}};
     for (const DirectionVerdict& verdict : list) {
         const Direction& d = *verdict.direction;
         Json direction = {{"label", d.label()},
@@ -94,8 +73,8 @@ Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& 
                           {"windows", d.starts.size()},
                           {"windows_skipped", d.skipped.size()},
                           {"windows_independent", d.plan.independent},
-                          {"noise", number(d.sigma)},
-                          {"tau", number(d.tau)},
+                          {"noise", number_json(d.sigma)},
+                          {"tau", number_json(d.tau)},
                           {"forecasters", Json::object()}};
         direction["forecasters"][d.persistence().name] = scores_json(d, d.persistence(), nullptr);
         for (std::size_t i = 1; i < d.entrants.size(); ++i)
@@ -105,15 +84,12 @@ Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& 
         for (const PairVerdict& pair : verdict.pairs)
             direction["pairs"].push_back({{"first", pair.first},
                                           {"second", pair.second},
-                                          {"difference", number(pair.difference)},
-                                          {"block", interval(pair.block)},
-                                          {"circular_block", interval(pair.circular_block)}});
+                                          {"difference", number_json(pair.difference)},
+                                          {"block", interval_json(pair.block)},
+                                          {"circular_block", interval_json(pair.circular_block)}});
         out["directions"].push_back(std::move(direction));
     }
-    out["notes"] = Json::array();
-    for (const Status& s : evaluation.notes)
-        out["notes"].push_back(
-            {{"id", s.id}, {"severity", to_string(s.severity)}, {"sentence", s.sentence}});
+    out["notes"] = notes_json(evaluation.notes);
     return out;
 }
 

@@ -6,27 +6,16 @@
 #include <cmath>
 #include <map>
 
+#include "verdigris/results/cells.h"
 #include "verdigris/results/evaluation_report.h"
 
 namespace verdigris {
 namespace {
 
-constexpr NumberFormat kError{NumberStyle::scientific, 2, false};
-constexpr NumberFormat kGain{NumberStyle::percent, 1, true};
 constexpr NumberFormat kSmall{NumberStyle::fixed, 2, false};
-constexpr NumberFormat kCount{NumberStyle::integer, 0, false};
-
-TableCell interval_cell(double value, const std::optional<Interval>& interval) {
-    if (!std::isfinite(value)) return {};
-    return interval ? TableCell(value, {interval->low, interval->high}) : TableCell(value);
-}
 
 double mean_or_nan(const ErrorTable& table) {
     return table.empty() || table.windows == 0 ? std::nan("") : overall_mean(table);
-}
-
-TableCell number_or_missing(double v) {
-    return std::isfinite(v) ? TableCell(v) : TableCell();
 }
 
 // The horizons worth a column: first, middle, last.
@@ -68,11 +57,11 @@ Table error_table(const Evaluation& evaluation) {
                 any ? horizon_means(s.foreground) : std::vector<double>();
             for (const int k : shown)
                 row.push_back(any ? TableCell(means[std::size_t(k - 1)]) : TableCell());
-            row.push_back(number_or_missing(mean_or_nan(s.foreground)));
-            row.push_back(number_or_missing(any ? gain(d, s) : std::nan("")));
-            row.push_back(number_or_missing(mean_or_nan(s.specimen)));
-            row.push_back(number_or_missing(mean_or_nan(s.delta_e)));
-            row.push_back(number_or_missing(
+            row.push_back(finite_or_missing(mean_or_nan(s.foreground)));
+            row.push_back(finite_or_missing(any ? gain(d, s) : std::nan("")));
+            row.push_back(finite_or_missing(mean_or_nan(s.specimen)));
+            row.push_back(finite_or_missing(mean_or_nan(s.delta_e)));
+            row.push_back(finite_or_missing(
                 (mean_or_nan(s.bias[0]) + mean_or_nan(s.bias[1]) + mean_or_nan(s.bias[2])) / 3));
             group.rows.push_back(std::move(row));
         }
@@ -153,12 +142,12 @@ Table block_table(const std::vector<DirectionVerdict>& list) {
                 group.rows.push_back(
                     {TableCell(e.name),
                      TableCell(fmt::format("samples {} to {}", b.first_start, b.last_start)),
-                     TableCell(b.windows), number_or_missing(b.value)});
+                     TableCell(b.windows), finite_or_missing(b.value)});
             for (const EntrantVerdict::Named& n : e.named)
                 group.rows.push_back({TableCell(e.name),
                                       TableCell(fmt::format("{} (units {:g} to {:g})", n.block.name,
                                                             n.block.begin, n.block.end)),
-                                      TableCell(n.windows), number_or_missing(n.gain)});
+                                      TableCell(n.windows), finite_or_missing(n.gain)});
         }
         table.groups.push_back(std::move(group));
     }
@@ -255,11 +244,7 @@ Figure horizon_figure(const Evaluation& evaluation) {
         }
         figure.panels.push_back(std::move(panel));
     }
-    if (figure.panels.empty()) {
-        FigurePanel empty;
-        empty.title = "no window was scored";
-        figure.panels.push_back(std::move(empty));
-    }
+    never_empty(figure);
     return figure;
 }
 
@@ -278,10 +263,9 @@ Figure gain_figure(const std::vector<DirectionVerdict>& list) {
         FigureSeries series{"gain", SeriesKind::points, {}};
         for (const EntrantVerdict& e : d.entrants) {
             if (!std::isfinite(e.gain)) continue;
-            FigurePoint point{double(panel.x.categories.size()), e.gain};
-            if (e.block) point.bounds = Bounds{e.block->low, e.block->high};
+            series.points.push_back(
+                interval_point(double(panel.x.categories.size()), e.gain, e.block));
             panel.x.categories.push_back(e.name);
-            series.points.push_back(point);
         }
         panel.series.push_back(std::move(series));
         panel.references.push_back({"persistence", 0});

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "verdigris/error.h"
+#include "verdigris/results/cells.h"
 
 namespace verdigris {
 namespace {
@@ -16,10 +17,6 @@ using Json = nlohmann::ordered_json;
 
 // chosen: of four blocks or fewer a percentile interval is little more than their range.
 constexpr std::size_t kFewBlocks = 5;
-
-Json number(double v) {
-    return std::isfinite(v) ? Json(v) : Json(nullptr);
-}
 
 }  // namespace
 
@@ -78,21 +75,14 @@ std::string signed_percent(double fraction) {
 }
 
 TableCell cell_of(const Resolved& r) {
-    if (!std::isfinite(r.value)) return {};
-    return r.block ? TableCell(r.value, {r.block->low, r.block->high}) : TableCell(r.value);
+    return interval_cell(r.value, r.block);
 }
 
 Json json_of(const Resolved& r) {
-    Json blocks = Json::array();
-    for (const BlockGain& b : r.blocks)
-        blocks.push_back({{"first_start", b.first_start},
-                          {"last_start", b.last_start},
-                          {"windows", b.windows},
-                          {"gain", number(b.value)}});
-    return {{"gain", number(r.value)},
-            {"interval", r.block ? Json{number(r.block->low), number(r.block->high)} : Json()},
+    return {{"gain", number_json(r.value)},
+            {"interval", interval_json(r.block)},
             {"windows", r.windows},
-            {"blocks", std::move(blocks)}};
+            {"blocks", blocks_json(r.blocks)}};
 }
 
 }  // namespace verdigris
