@@ -70,8 +70,11 @@ Table characterization_table(const Characterization& table,
     out.group_header = "axis";
     out.columns = {{"setting", "Setting", Align::left}};
     for (std::size_t i = 0; i < table.directions.size(); ++i) {
-        out.columns.push_back(
-            {fmt::format("error_{}", i + 1), table.directions[i], Align::right, kError});
+        // A line may break after the hyphen of "->", so here it is one character.
+        std::string direction = table.directions[i];
+        if (const auto at = direction.rfind(" -> "); at != std::string::npos)
+            direction.replace(at, 4, " \u2192 ");
+        out.columns.push_back({fmt::format("error_{}", i + 1), direction, Align::right, kError});
         out.columns.push_back({fmt::format("gain_{}", i + 1), "gain", Align::right, kWhole, true});
     }
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
