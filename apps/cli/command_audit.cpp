@@ -2,6 +2,7 @@
 // Did anything leak? And do the tables follow from the errors they were made of?
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -214,11 +215,60 @@ int recount(const fs::path& folder, const EvaluationRecord& record, Statuses& fi
     return count.compared();
 }
 
+/// The record against the protocol beside it: span, embargo, and the windows that it names.
+void check_protocol_of(const fs::path& folder, const EvaluationRecord& record, Statuses& findings) {
+    const auto differs = [&](const std::string& what) {
+        findings.push_back({"record_differs_from_protocol", Severity::refusal,
+                            fmt::format("record.json has {} than protocol.toml", what)});
+    };
+    const EvaluationProtocol protocol = read_protocol(folder / kProtocolFile);
+    if (record.span != protocol.span()) differs("another span of a window");
+    if (record.embargo != protocol.embargo_samples()) differs("another embargo");
+    if (record.single != protocol.single) differs("another say on what is held out");
+    for (const RecordingRecord& r : record.recordings) {
+        const WindowPlan plan = plan_windows(protocol, r.samples, r.name);
+        if (r.usable != plan.usable) differs(fmt::format("other usable samples of {}", r.name));
+        const std::set<int> named(plan.starts.begin(), plan.starts.end());
+        for (const DirectionRecord& d : record.directions) {
+            for (const SampleUse& use : d.uses) {
+                if (use.role != SampleRole::test || use.recording != r.name) continue;
+                const bool all = std::ranges::all_of(
+                    use.starts, [&](int start) { return named.contains(start); });
+                if (!all || use.planned != int(named.size()))
+                    differs(fmt::format("other windows of {}", r.name));
+            }
+        }
+    }
+}
+
+/// The pair of recordings that comes nearest to being one.
+void tell_likeness(Session& session, const EvaluationRecord& record) {
+    double most = -1;
+    std::string pair;
+    for (std::size_t i = 0; i < record.recordings.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const RecordingRecord &a = record.recordings[j], &b = record.recordings[i];
+            const double likeness = surface_likeness(a.surface, b.surface);
+            if (likeness <= most) continue;
+            most = likeness;
+            pair = fmt::format("{} and {}", a.name, b.name);
+        }
+    }
+    if (!pair.empty())
+        session.say(
+            fmt::format("surfaces  most alike are {}: {:.2f} (from {:.2f} on they would "
+                        "count as one recording)",
+                        pair, most, kNearCopy));
+}
+
 void run(Session& session, const std::string& results) {
     const fs::path folder = results;
     const EvaluationRecord record =
         record_from(read_json(folder / kRecordFile), (folder / kRecordFile).string());
-    Statuses findings = audit(record);
+    Statuses findings = check_file_list(folder);
+    const Statuses leaked = audit(record);
+    findings.insert(findings.end(), leaked.begin(), leaked.end());
+    check_protocol_of(folder, record, findings);
     const int compared = recount(folder, record, findings);
     std::size_t leaks = 0;
     for (const Status& s : findings) {
@@ -229,9 +279,12 @@ void run(Session& session, const std::string& results) {
         fmt::format("audited   {} recordings, {} directions; {} numbers made again from "
                     "their windows",
                     record.recordings.size(), record.directions.size(), compared));
+    tell_likeness(session, record);
     if (leaks == 0)
         session.say(
-            "verdict   nothing leaked; errors, gains and block intervals follow from the windows");
+            "verdict   nothing leaked; errors, gains and block intervals follow from the windows, "
+            "and "
+            "the files are those that were delivered");
     session.result({{"clean", leaks == 0}, {"findings", json_of(findings)}});
     if (leaks > 0) {
         session.json = false;  // the one object has been printed; the sentence goes to stderr

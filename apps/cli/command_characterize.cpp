@@ -42,7 +42,7 @@ std::vector<int> contexts_that_fit(Session& session, const EvaluationProtocol& p
 }
 
 void run(Session& session, const JudgeArguments& a) {
-    check_results_folder(a.output, session.force);
+    check_results_folder(a.output, kCharacterizationFile, session.force);
     const std::vector<Observation> observations = observe_all(session, a);
     EvaluationProtocol protocol = protocol_for(session, a, observations);
     CharacterizeOptions options;

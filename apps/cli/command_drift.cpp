@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "judged.h"
+#include "verdigris/evaluate/near_copy.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/csv.h"
 #include "verdigris/report/table_formats.h"
@@ -18,7 +19,7 @@ struct Arguments {
 };
 
 void run(Session& session, const Arguments& a) {
-    check_results_folder(a.judge.output, session.force);
+    check_results_folder(a.judge.output, kDriftFile, session.force);
     const std::vector<Entrant> entrants = entrants_from(a.forecasters);
     if (entrants.empty())
         throw Error(ErrorCode::usage,
@@ -26,13 +27,24 @@ void run(Session& session, const Arguments& a) {
     const std::vector<Observation> observations = observe_all(session, a.judge);
     EvaluationProtocol protocol = protocol_for(session, a.judge, observations);
     protocol.single = true;  // nothing is trained, and each recording has a light of its own
-    for (std::size_t i = 0; i < observations.size(); ++i)
-        for (std::size_t k = 0; k < i; ++k)
+    std::vector<SurfacePrint> surfaces;
+    for (const Observation& o : observations)
+        surfaces.push_back(surface_print(o, {0, o.store->count()}));
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
             if (observations[i].source_sha256 == observations[k].source_sha256)
                 throw Error(ErrorCode::refused,
                             fmt::format("{} and {} are two copies of one recording: one piece of "
                                         "evidence would look like two",
                                         observations[k].source_name, observations[i].source_name));
+            const double likeness = surface_likeness(surfaces[k], surfaces[i]);
+            if (likeness >= kNearCopy)
+                throw Error(ErrorCode::refused,
+                            near_copy_sentence(observations[k].source_name,
+                                               observations[i].source_name, likeness) +
+                                ", so that one piece of evidence would look like two");
+        }
+    }
     std::vector<RecordingDrift> list;
     for (const Observation& o : observations)
         list.push_back(measure_recording_drift(protocol, o, entrants, {}, session.progress()));

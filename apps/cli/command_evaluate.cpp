@@ -2,6 +2,8 @@
 // Forecasters against doing nothing, on recordings that nothing was learned from.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "commands.h"
 #include "judged.h"
 #include "learned.h"
@@ -18,7 +20,7 @@ struct Arguments {
 };
 
 void run(Session& session, const Arguments& a) {
-    check_results_folder(a.judge.output, session.force);
+    check_results_folder(a.judge.output, kEvaluationFile, session.force);
     std::vector<Entrant> entrants = entrants_from(a.forecasters);
     const std::vector<std::string> checkpoints = checkpoints_among(a.forecasters);
     check_checkpoints(checkpoints);
@@ -29,6 +31,16 @@ void run(Session& session, const Arguments& a) {
     for (Entrant& learned : learned_entrants(checkpoints, protocol))
         entrants.push_back(std::move(learned));
     const Evaluation evaluation = evaluate(protocol, observations, entrants, session.progress());
+    // As `characterize`: a result without a number is none.
+    const bool any_scored = std::ranges::any_of(
+        evaluation.directions, [](const Direction& d) { return !d.starts.empty(); });
+    if (!any_scored) {
+        const Direction& d = evaluation.directions.front();
+        throw Error(ErrorCode::refused,
+                    fmt::format("leaves no window to score, and no other recording does: {}",
+                                d.skipped.empty() ? "none fits" : d.skipped.front().why),
+                    d.held_out);
+    }
     const std::vector<DirectionVerdict> list = verdicts(evaluation, blocks);
     Report report = evaluation_report(evaluation, list);
     report.footer = fmt::format("verdigris {}", VERDIGRIS_VERSION);
@@ -41,8 +53,7 @@ void run(Session& session, const Arguments& a) {
                     });
     session.say("");
     session.say(table_plain(error_table(evaluation)));
-    for (const DirectionVerdict& d : list)
-        for (const EntrantVerdict& e : d.entrants) session.say(e.sentence);
+    for (const std::string& sentence : verdict_sentences(list)) session.say(sentence);
     for (const Status& s : evaluation.notes) session.tell(s);
     session.result(json);
 }

@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "arguments.h"
 #include "learned.h"
@@ -14,6 +15,7 @@
 #include "verdigris/evaluate/characterize.h"
 #include "verdigris/forecast/choose.h"
 #include "verdigris/results/protocol_file.h"
+#include "verdigris/results/result_files.h"
 
 namespace verdigris::cli {
 namespace fs = std::filesystem;
@@ -183,24 +185,37 @@ std::vector<std::string> checkpoints_among(const std::string& names) {
     return paths;
 }
 
-void check_results_folder(const fs::path& output, bool force) {
+void check_results_folder(const fs::path& output, const char* mark, bool force) {
     std::error_code error;
     if (!fs::exists(output, error)) return;
     if (!fs::is_directory(output, error))
         throw Error(ErrorCode::failed, "is a file, not a folder; choose another with -o",
                     output.string());
-    for (const char* mark : {kEvaluationFile, kRecordFile, "characterization.json", "drift.json"})
-        if (fs::is_regular_file(output / mark, error)) return;  // ours: replaced as a whole
+    const bool ours = fs::is_regular_file(output / mark, error);
+    for (const auto& [other, command] :
+         {std::pair(kEvaluationFile, "evaluate"), std::pair(kCharacterizationFile, "characterize"),
+          std::pair(kDriftFile, "drift")}) {
+        if (other == std::string_view(mark) || !fs::is_regular_file(output / other, error))
+            continue;
+        // Not even --force: of two results in one folder neither would be whole.
+        throw Error(ErrorCode::refused,
+                    fmt::format("holds a result of `{}`; choose another folder with -o", command),
+                    output.string());
+    }
+    const FileList list = ours ? read_file_list(output) : FileList();
     for (const fs::directory_entry& entry : fs::directory_iterator(output, error)) {
         const std::string name = entry.path().filename().string();
         if (name.starts_with(".partial-")) continue;
         // Not even --force replaces what is not ours: these would go as whole folders.
         const bool in_the_way = name == "tables" || name == "figures" || name == "report.html";
+        if (ours && !in_the_way) continue;
+        const std::string own = ours ? unlisted_file(output, name, list) : name;
+        if (own.empty()) continue;
         if (in_the_way || !force)
             throw Error(ErrorCode::refused,
                         fmt::format("holds '{}', which is not a result of ours; choose an empty "
                                     "folder{}",
-                                    name, in_the_way ? "" : " or use --force"),
+                                    own, in_the_way ? "" : " or use --force"),
                         output.string());
     }
 }
@@ -211,7 +226,10 @@ void deliver_results(Session& session, const fs::path& output, const Report& rep
     StagedFolder staged(output);
     const WrittenResults written = write_results(report, staged.path(), data, session.progress());
     if (more) more(staged.path());
-    staged.commit("report.html");
+    write_file_list(staged.path());
+    const FileList before = read_file_list(output);
+    staged.commit(kFileList);
+    remove_left_over(output, before);
     for (const Status& s : written.statuses) session.tell(s);
     session.say("");
     session.say(fmt::format("Read      {}", (output / "report.html").string()));

@@ -57,10 +57,13 @@ inline constexpr const char* kCharacterizationFile = "characterization.json";
 inline constexpr const char* kDriftFile = "drift.json";
 inline constexpr const char* kDriftMapsFile = "drift_gains.csv";
 
-/// Throws Error{refused} if the folder holds anything but results, unless forced.
-void check_results_folder(const std::filesystem::path& output, bool force);
+/// A folder belongs to the command whose `mark` (kEvaluationFile ...) is in it, and is replaced by
+/// that one only. Throws Error{refused} if it holds a result of another, or a file of somebody's
+/// own where ours would go; and, unless forced, if it holds anything else and is no result of ours.
+void check_results_folder(const std::filesystem::path& output, const char* mark, bool force);
 
-/// Writes report, tables and figures and what `more` writes, all at once; tells the statuses.
+/// Writes report, tables, figures, what `more` writes and the list of them all, at once; tells the
+/// statuses. What an earlier result of this folder had more goes, unless somebody changed it.
 void deliver_results(Session& session, const std::filesystem::path& output, const Report& report,
                      const std::vector<Table>& data,
                      const std::function<void(const std::filesystem::path&)>& more);

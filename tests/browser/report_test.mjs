@@ -79,6 +79,15 @@ await withBrowser(async (context) => {
     await page.locator("#figure-blocks .chart .role-legend-label text").first().dblclick({ force: true });
   });
 
+  await test("a table of two directions fits beside the contents", async () => {
+    await page.setViewportSize({ width: 1280, height: 900 });
+    const [inside, place] = await page.locator(".table:has(#table-settings)").evaluate((t) => [t.scrollWidth, t.clientWidth]);
+    assert.ok(inside <= place, `${inside} px in ${place}`);
+    assert.ok(await page.locator("nav").evaluate((n) => n.offsetWidth < 300), "the contents are no column");
+    await page.setViewportSize({ width: 1200, height: 900 });
+    await page.waitForTimeout(600);
+  });
+
   await test("tables sort within their groups, and what is missing stays last", async () => {
     const given = await column(page, 1);
     assert.deepEqual(given, [["4.20", "3.93", "12.0"], ["5.10", "5.35", "NaN"]]);

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <limits>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -40,6 +41,25 @@ Table gains() {
     return table;
 }
 
+/// As wide as `characterize` of two recordings: it has to fit beside the contents at 1280 pixels.
+Table settings() {
+    Table table;
+    table.id = "settings";
+    table.title = "What a forecaster needs";
+    table.columns = {{"setting", "Setting", Align::left}};
+    const NumberFormat error{NumberStyle::scientific, 2}, whole{NumberStyle::percent, 0, true};
+    for (const char* direction : {"open air \u2192 chamber", "chamber \u2192 open air"}) {
+        const std::string id = table.columns.size() == 1 ? "first" : "second";
+        table.columns.push_back({id, direction, Align::right, error});
+        table.columns.push_back({id + "_gain", "gain", Align::right, whole, true});
+    }
+    table.add_row({"hold last transform (0th order)", 4.9e-5, TableCell(0, {0, 0}), 7.7e-5,
+                   TableCell(0, {0, 0})});
+    table.add_row({"accelerating drift (2nd)", 4.5e-4, TableCell(-8.1, {-13.1, -1.2}), 2.7e-3,
+                   TableCell(-34.5, {-46.2, -26.4})});
+    return table;
+}
+
 Report sample_report() {
     ReportSection verdict{"verdict", "Verdict", {}};
     verdict.blocks = {
@@ -49,7 +69,7 @@ Report sample_report() {
         Status{
             "few_blocks", Severity::caution,
             "Six independent blocks carry all of the evidence; the naive interval is too narrow."},
-        gains()};
+        gains(), settings()};
     ReportSection detail{
         "detail", "In detail", {BulletList{{"One point of two <is> words.", "Two."}}}};
     for (Figure& figure : sample_figures()) detail.blocks.emplace_back(std::move(figure));

@@ -65,6 +65,12 @@ void check_recordings(const EvaluationRecord& record, Statuses& findings) {
             if (shared > 0) {
                 leak(findings, "same_recording_twice",
                      fmt::format("{} and {} share {} identical frames", b.name, a.name, shared));
+                continue;
+            }
+            const double likeness = surface_likeness(b.surface, a.surface);
+            if (likeness >= kNearCopy) {
+                leak(findings, "near_copy_of_recording",
+                     near_copy_sentence(b.name, a.name, likeness));
             }
         }
     }

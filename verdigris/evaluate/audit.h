@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "verdigris/evaluate/near_copy.h"
 #include "verdigris/evaluate/windows.h"
 #include "verdigris/status.h"
 
@@ -18,6 +19,7 @@ struct RecordingRecord {
     int samples = 0;
     SampleRange usable;
     std::vector<std::string> frame_hashes;  ///< one per usable sample; empty: not hashed
+    SurfacePrint surface{};                 ///< knows a re-encoded or rescaled copy again
 };
 
 enum class SampleRole { train, validation, test };
@@ -50,11 +52,12 @@ struct EvaluationRecord {
 };
 
 /// Empty if nothing leaked. Ids, all refusals: "same_recording_twice",
-/// "test_recording_in_training", "test_recording_in_selection", "window_crosses_split",
-/// "sample_outside_split", "sample_in_two_splits", "embargo_violated", "frame_in_two_splits",
-/// "trained_without_held_out", "windows_missing", "window_twice", "unknown_recording"; an info:
-/// "frames_not_hashed". Trusts the record: what it does not name it cannot catch (see peeking.h for
-/// forecasters that look where they should not). O(samples log samples).
+/// "near_copy_of_recording", "test_recording_in_training", "test_recording_in_selection",
+/// "window_crosses_split", "sample_outside_split", "sample_in_two_splits", "embargo_violated",
+/// "frame_in_two_splits", "trained_without_held_out", "windows_missing", "window_twice",
+/// "unknown_recording"; an info: "frames_not_hashed". Trusts the record: what it does not name it
+/// cannot catch (see peeking.h for forecasters that look where they should not). O(samples log
+/// samples).
 Statuses audit(const EvaluationRecord& record);
 
 }  // namespace verdigris

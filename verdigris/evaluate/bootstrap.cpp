@@ -87,7 +87,7 @@ std::vector<Sums> one_by_one(const WindowRatios& r) {
     return out;
 }
 
-/// Blocks without a window are left out: nothing was observed there.
+/// At least one window. Blocks without any are left out: nothing was observed there.
 std::vector<Sums> by_block(const WindowRatios& r, int block) {
     std::vector<Sums> blocks;
     int current = -1;
@@ -96,6 +96,13 @@ std::vector<Sums> by_block(const WindowRatios& r, int block) {
         if (index != current) blocks.emplace_back();
         current = index;
         blocks.back() += {r.over[i], r.under[i], 1};
+    }
+    // Drawn like a whole block, the few windows of a short last one would weigh as one.
+    const int fullest = std::ranges::max_element(blocks, {}, &Sums::windows)->windows;
+    if (blocks.size() > 1 && 2 * blocks.back().windows < fullest) {
+        const Sums rest = blocks.back();
+        blocks.pop_back();
+        blocks.back() += rest;
     }
     return blocks;
 }
@@ -136,20 +143,24 @@ std::vector<Sums> running_sums(const WindowRatios& r) {
     return sums;
 }
 
-std::vector<Weighted> moving_blocks(const WindowRatios& r, const BootstrapOptions& options) {
+Sums between(const std::vector<Sums>& sums, std::size_t from, std::size_t to) {
+    return {sums[to].over - sums[from].over, sums[to].under - sums[from].under,
+            sums[to].windows - sums[from].windows};
+}
+
+std::vector<Weighted> circular_blocks(const WindowRatios& r, const BootstrapOptions& options) {
     const std::vector<Sums> sums = running_sums(r);
     const std::size_t length = sums.size() - 1,
                       block = std::min(length, std::size_t(options.block));
-    const std::size_t offsets = length - block + 1;
-    if (offsets < 2) return {};
     std::mt19937 random = generator(options.seed);
     std::vector<Weighted> out;
     for (int i = 0; i < options.draws; ++i) {
         Sums sum;
         for (std::size_t filled = 0; filled < length; filled += block) {
-            const std::size_t at = draw(random, offsets), n = std::min(block, length - filled);
-            const Sums &from = sums[at], &to = sums[at + n];
-            sum += {to.over - from.over, to.under - from.under, to.windows - from.windows};
+            const std::size_t at = draw(random, length), n = std::min(block, length - filled);
+            const std::size_t end = std::min(at + n, length);
+            sum += between(sums, at, end);
+            sum += between(sums, 0, at + n - end);  // past the end it goes on at the start
         }
         // Where windows were skipped, a draw may hold none at all: it says nothing.
         if (sum.windows > 0) out.push_back({quotient(sum), 1});
@@ -193,8 +204,8 @@ std::string to_string(BootstrapKind kind) {
             return "naive";
         case BootstrapKind::block:
             return "block";
-        case BootstrapKind::moving_block:
-            return "moving-block";
+        case BootstrapKind::circular_block:
+            return "circular-block";
     }
     return "unknown";
 }
@@ -225,13 +236,16 @@ std::optional<Interval> bootstrap(const WindowRatios& r, BootstrapKind kind,
     std::vector<Weighted> values;
     if (kind == BootstrapKind::naive) {
         values = resampled(one_by_one(r), r.starts.size(), options);
-    } else if (kind == BootstrapKind::block) {
+    } else {
         const std::vector<Sums> blocks = by_block(r, options.block);
         if (blocks.size() < 2) return std::nullopt;
-        values = int(blocks.size()) <= kMostEnumerated ? all_multisets(blocks)
-                                                       : resampled(blocks, blocks.size(), options);
-    } else {
-        values = moving_blocks(r, options);
+        if (kind == BootstrapKind::circular_block) {
+            values = circular_blocks(r, options);
+        } else {
+            values = int(blocks.size()) <= kMostEnumerated
+                         ? all_multisets(blocks)
+                         : resampled(blocks, blocks.size(), options);
+        }
     }
     if (values.empty()) return std::nullopt;
     return percentile(std::move(values), options.level);

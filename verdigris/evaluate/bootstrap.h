@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How much of a gain the windows resolve. They overlap heavily, so three answers of different
-// honesty: windows as if independent, whole blocks of them, and blocks at any offset.
+// honesty: windows as if independent, whole blocks of them, and blocks at any offset of a circle.
 #pragma once
 
 #include <cstdint>
@@ -27,14 +27,14 @@ WindowRatios difference_ratios(const Direction& direction, const EntrantScores& 
                                const EntrantScores& second);
 
 enum class BootstrapKind {
-    naive,         ///< windows one by one, as if they were independent: too narrow
-    block,         ///< what [Paper] describes: the non-overlapping blocks [Carlstein1986]
-    moving_block,  ///< blocks at any offset [Kunsch1989]
+    naive,           ///< windows one by one, as if they were independent: too narrow
+    block,           ///< what [Paper] describes: the non-overlapping blocks [Carlstein1986]
+    circular_block,  ///< blocks at any offset, the end joined to the start [PolitisRomano1992]
 };
-std::string to_string(BootstrapKind kind);  ///< "naive", "block", "moving-block"
+std::string to_string(BootstrapKind kind);  ///< "naive", "block", "circular-block"
 
 struct BootstrapOptions {
-    int draws = 10000;       ///< of `naive`, `moving_block`, and `block` beyond 12 blocks
+    int draws = 10000;       ///< of `naive`, `circular_block`, and `block` beyond 12 blocks
     std::uint64_t seed = 0;  ///< of the Mersenne twister
     double level = 0.95;     ///< share of the distribution inside the interval
     int block = 140;         ///< samples per block: one window's span
@@ -49,9 +49,12 @@ struct Interval {
 
 /// Percentile interval of theta. `block` puts the window that starts at s into block
 /// (s - first start) / block and enumerates all multisets of blocks with their multinomial weights:
-/// exact, 462 of them for 6 blocks. `moving_block` draws ceil(starts / block) blocks of consecutive
-/// starts, the last one cut to length. Empty where there are fewer than two windows or blocks to
-/// draw from, or an `under` sum is 0. Same seed, same interval, on any machine.
+/// exact, 462 of them for 6 blocks. A last block with fewer than half as many windows as the
+/// fullest is part of the one before it: drawn like a whole one, a window by itself would pass for
+/// a block. `circular_block` draws blocks of consecutive starts, ceil(starts / block) of them, the
+/// last one cut to length; a block that reaches the end goes on at the start, so that every window
+/// is drawn as often as any other and the draws center on theta. Empty where `block` has fewer than
+/// two blocks (naive: windows), or an `under` sum is 0. Same seed, same interval, on any machine.
 /// Few blocks make intervals that are wide and still too narrow: see the measured coverage in
 /// docs/PROTOCOL.md. Throws Error{usage}: sizes differ, starts do not increase, options.
 std::optional<Interval> bootstrap(const WindowRatios& ratios, BootstrapKind kind,
@@ -60,7 +63,7 @@ std::optional<Interval> bootstrap(const WindowRatios& ratios, BootstrapKind kind
 /// theta of all windows.
 double ratio(const WindowRatios& ratios);
 
-/// theta of each block by itself: what an interval of six blocks is made of.
+/// theta of each block of `block` by itself: what an interval of six blocks is made of.
 struct BlockGain {
     int first_start = 0, last_start = 0;  ///< of its windows
     int windows = 0;

@@ -74,16 +74,78 @@ TEST(Bootstrap, ThePapers810WindowsAreSixBlocks) {
     EXPECT_EQ(blocks[5].last_start, 826);
     EXPECT_NEAR(blocks[3].value, 0.1, 1e-12);
     for (const auto kind :
-         {BootstrapKind::naive, BootstrapKind::block, BootstrapKind::moving_block}) {
+         {BootstrapKind::naive, BootstrapKind::block, BootstrapKind::circular_block}) {
         const auto interval = bootstrap(r, kind);
         EXPECT_NEAR(interval->low, 0.1, 1e-9) << to_string(kind);
         EXPECT_NEAR(interval->high, 0.1, 1e-9) << to_string(kind);
     }
 }
 
+TEST(Bootstrap, AShortLastBlockIsPartOfTheOneBeforeIt) {
+    const auto windows = [](int count, int step = 1) {
+        WindowRatios r;
+        for (int i = 0; i < count; ++i) {
+            r.starts.push_back(i * step);
+            r.over.push_back(i * step < 280 ? 0.5 : 0.25);
+            r.under.push_back(1);
+        }
+        std::vector<int> of_blocks;
+        for (const BlockGain& b : block_gains(r, 140)) of_blocks.push_back(b.windows);
+        return std::pair(r, of_blocks);
+    };
+    // One window more than two blocks, one fewer than a half, and a half.
+    const auto [one_more, blocks] = windows(281);
+    EXPECT_EQ(blocks, (std::vector<int>{140, 141}));
+    EXPECT_NEAR(block_gains(one_more, 140)[1].value, (140 * 0.5 + 0.25) / 141, 1e-12);
+    EXPECT_EQ(block_gains(one_more, 140)[1].last_start, 280);
+    EXPECT_EQ(windows(349).second, (std::vector<int>{140, 209}));
+    EXPECT_EQ(windows(350).second, (std::vector<int>{140, 140, 70}));
+    // By count, not by samples, so that evenly spaced windows give as many blocks.
+    EXPECT_EQ(windows(29, 10).second, (std::vector<int>{14, 15}));
+    EXPECT_EQ(windows(81, 10).second, (std::vector<int>{14, 14, 14, 14, 14, 11}));
+    // One window beyond a block leaves one block, which resolves nothing.
+    const auto [alone, single] = windows(141);
+    EXPECT_EQ(single, (std::vector<int>{141}));
+    EXPECT_FALSE(bootstrap(alone, BootstrapKind::block));
+    EXPECT_FALSE(bootstrap(alone, BootstrapKind::circular_block));
+}
+
+TEST(Bootstrap, TheEndOfACircleGoesOnAtItsStart) {
+    // Four windows, of which the first gains: blocks of two at the offsets 0 .. 3 hold it at 0 and,
+    // across the end, at 3. So two blocks hold it 0, 1, 2 times with probability 1/4, 1/2, 1/4.
+    // Without the wrap it would be 4/9, 4/9, 1/9, and the middle 40 % would reach down to 0.
+    WindowRatios r;
+    r.starts = {0, 1, 2, 3};
+    r.over = {1, 0, 0, 0};
+    r.under = {1, 1, 1, 1};
+    const auto wide = bootstrap(r, BootstrapKind::circular_block, {10000, 0, 0.90, 2});
+    const auto narrow = bootstrap(r, BootstrapKind::circular_block, {10000, 0, 0.40, 2});
+    EXPECT_NEAR(wide->low, 0, 1e-12);
+    EXPECT_NEAR(wide->high, 0.5, 1e-12);
+    EXPECT_NEAR(narrow->low, 0.25, 1e-12);
+    EXPECT_NEAR(narrow->high, 0.25, 1e-12);
+}
+
+TEST(Bootstrap, ItsDrawsCenterOnTheGainWhereTheEndsDiffer) {
+    // All gain lies in the first and last 40 of 810 windows, which blocks that stop at the ends
+    // draw a sixth as often: their whole 95 % interval lies below the gain.
+    WindowRatios r;
+    for (int s = 0; s < 810; ++s) {
+        r.starts.push_back(s);
+        r.over.push_back(s < 40 || s >= 770 ? 0.9 : 0);
+        r.under.push_back(1);
+    }
+    const auto interval = bootstrap(r, BootstrapKind::circular_block);
+    EXPECT_LT(interval->low, ratio(r));
+    EXPECT_GT(interval->high, ratio(r));
+    // The middle of the draws is the gain itself, to what is left of the cut last block.
+    const auto middle = bootstrap(r, BootstrapKind::circular_block, {10000, 0, 0.02, 140});
+    EXPECT_NEAR(middle->low, ratio(r), 0.01);
+}
+
 TEST(Bootstrap, SkippedWindowsLeaveTheirBlocksWhereTheyWere) {
     WindowRatios r;
-    for (const int s : {0, 1, 2, 150, 151, 420}) {
+    for (const int s : {0, 1, 2, 150, 151, 420, 421}) {
         r.starts.push_back(s);
         r.over.push_back(0.5);
         r.under.push_back(s < 140 ? 1 : 2);
@@ -94,7 +156,7 @@ TEST(Bootstrap, SkippedWindowsLeaveTheirBlocksWhereTheyWere) {
     EXPECT_EQ(blocks[1].windows, 2);
     EXPECT_EQ(blocks[2].first_start, 420);
     EXPECT_NEAR(blocks[1].value, 0.25, 1e-12);
-    EXPECT_TRUE(bootstrap(r, BootstrapKind::moving_block));
+    EXPECT_TRUE(bootstrap(r, BootstrapKind::circular_block));
 }
 
 TEST(Bootstrap, AWindowByItselfResolvesNothing) {
@@ -104,7 +166,7 @@ TEST(Bootstrap, AWindowByItselfResolvesNothing) {
     r = constant_in_blocks({0.5}, 100, {1});
     EXPECT_TRUE(bootstrap(r, BootstrapKind::naive));
     EXPECT_FALSE(bootstrap(r, BootstrapKind::block));
-    EXPECT_FALSE(bootstrap(r, BootstrapKind::moving_block));
+    EXPECT_FALSE(bootstrap(r, BootstrapKind::circular_block));
     r.starts[3] = r.starts[2];
     EXPECT_THROW(bootstrap(r, BootstrapKind::naive), Error);
     EXPECT_THROW(bootstrap(constant_in_blocks({1, 2}, 2, {1, 1}), BootstrapKind::naive, {0}),
@@ -149,7 +211,7 @@ TEST(Bootstrap, DifferencesArePairedAndHaveTheRightSign) {
 TEST(Bootstrap, TheSameSeedGivesTheSameIntervalOnEveryMachine) {
     const Direction d = two_entrants();
     const WindowRatios r = gain_ratios(d, d.entrants[1]);
-    for (const auto kind : {BootstrapKind::naive, BootstrapKind::moving_block}) {
+    for (const auto kind : {BootstrapKind::naive, BootstrapKind::circular_block}) {
         const auto a = bootstrap(r, kind, {2000, 3, 0.95, 50}),
                    b = bootstrap(r, kind, {2000, 3, 0.95, 50});
         EXPECT_EQ(a->low, b->low);
@@ -192,7 +254,7 @@ TEST(Bootstrap, ItsCoverageOnAutocorrelatedErrorsIsMeasured) {
     constexpr double kGain = 0.2;
     for (const double memory : {10.0, 30.0, 100.0}) {
         for (const auto kind :
-             {BootstrapKind::naive, BootstrapKind::block, BootstrapKind::moving_block}) {
+             {BootstrapKind::naive, BootstrapKind::block, BootstrapKind::circular_block}) {
             std::vector<int> inside(kTrials);
             std::vector<double> width(kTrials);
             parallel_for(kTrials, [&](int i) {
@@ -204,7 +266,7 @@ TEST(Bootstrap, ItsCoverageOnAutocorrelatedErrorsIsMeasured) {
             const double covered =
                 double(std::accumulate(inside.begin(), inside.end(), 0)) / kTrials;
             std::printf(
-                "coverage of nominal 95 %%, memory %3.0f samples, %-12s: %.1f %%, width %.3f\n",
+                "coverage of nominal 95 %%, memory %3.0f samples, %-14s: %.1f %%, width %.3f\n",
                 memory, to_string(kind).c_str(), 100 * covered,
                 std::accumulate(width.begin(), width.end(), 0.0) / kTrials);
             if (kind == BootstrapKind::naive) {

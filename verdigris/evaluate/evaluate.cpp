@@ -78,6 +78,11 @@ void refuse_copies(const std::vector<Entry>& entries) {
                                         "be held out",
                                         a.name, b.name));
             }
+            const double likeness = surface_likeness(a.surface, b.surface);
+            if (likeness >= kNearCopy) {
+                throw Error(ErrorCode::refused, near_copy_sentence(a.name, b.name, likeness) +
+                                                    ", so that nothing would be held out");
+            }
         }
     }
 }
@@ -104,6 +109,7 @@ std::vector<Entry> entries_of(const EvaluationProtocol& protocol,
         entry.record.sha256 = observation.source_sha256;
         entry.record.samples = observation.store->count();
         entry.record.usable = entry.plan.usable;
+        entry.record.surface = surface_print(observation, entry.plan.usable);
         if (protocol.hash_frames) {
             entry.record.frame_hashes =
                 frame_hashes(*observation.store, entry.plan.usable, progress);

@@ -56,8 +56,8 @@ struct Evaluation {
 /// Throws Error{usage}: the protocol, no observation, two entrants of one name. Error{bad_input}
 /// naming the recording: too short, not the grid's samples, not every sample kept, too large.
 /// Error{refused}: one recording without protocol.single; a trained forecaster with it, or where a
-/// source's splits do not fit; two copies of one recording. Error{failed}: a forecast of another
-/// size, or not finite.
+/// source's splits do not fit; two copies, or near copies, of one recording. Error{failed}: a
+/// forecast of another size, or not finite.
 Evaluation evaluate(const EvaluationProtocol& protocol, std::span<const Observation> observations,
                     const std::vector<Entrant>& entrants, const Progress& progress = {});
 

@@ -272,6 +272,8 @@ CropReport crop_report(const SpecimenFinding& finding, const Look& look) {
     CropReport report;
     report.area_share = finding.area_share;
     report.score_ratio = finding.score_ratio;
+    report.frame_width = look.frame_width;
+    report.frame_height = look.frame_height;
     const Rect frame{0, 0, look.frame_width, look.frame_height};
     switch (finding.kind) {
         case SpecimenKind::fills_frame:

@@ -67,6 +67,8 @@ Scene choose_crop(const Recording& recording, const CropChoice& choice, const Pr
     Scene scene;
     if (choice.mode == CropMode::none) {
         scene.crop.rect = {0, 0, info.width, info.height};
+        scene.crop.frame_width = info.width;
+        scene.crop.frame_height = info.height;
         scene.crop.sentence = "the whole frame is used, as asked";
         return scene;
     }

@@ -81,7 +81,9 @@ struct Noise {
 
 /// How the specimen was found.
 struct CropReport {
-    Rect rect;                 ///< in shown coordinates of the frame
+    Rect rect;            ///< in shown coordinates of the frame
+    int frame_width = 0;  ///< of the frame as shown; 0: not known, as of a stored observation
+    int frame_height = 0;
     bool fills_frame = false;  ///< nearly everything changes: the specimen is the frame
     double area_share = 0;     ///< specimen mask over the frame
     double score_ratio = 0;    ///< best candidate over the runner-up; 0 if only one

@@ -6,23 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
+
+#include "verdigris/results/cells.h"
 
 namespace verdigris {
 namespace {
 using Json = nlohmann::ordered_json;
 
-constexpr NumberFormat kError{NumberStyle::scientific, 2, false};
-constexpr NumberFormat kGain{NumberStyle::percent, 1, true};
 // Two directions with their intervals have to fit on a page; CSV and JSON hold every digit.
 constexpr NumberFormat kWhole{NumberStyle::percent, 0, true};
 constexpr NumberFormat kShare{NumberStyle::percent, 1, false};
-constexpr NumberFormat kCount{NumberStyle::integer, 0, false};
-
-Json numbers(const std::vector<double>& values) {
-    Json list = Json::array();
-    for (const double v : values) list.push_back(std::isfinite(v) ? Json(v) : Json());
-    return list;
-}
 
 std::string group_title(const CharacterizationRow& row) {
     if (row.block == "context") return "frames observed";
@@ -61,12 +55,6 @@ FigureSeries curve(const std::string& name, const std::vector<double>& values, b
     return series;
 }
 
-void never_empty(Figure& figure) {
-    if (!figure.panels.empty()) return;
-    figure.panels.emplace_back();
-    figure.panels.back().title = "no window was scored";
-}
-
 }  // namespace
 
 Table characterization_table(const Characterization& table,
@@ -82,8 +70,11 @@ Table characterization_table(const Characterization& table,
     out.group_header = "axis";
     out.columns = {{"setting", "Setting", Align::left}};
     for (std::size_t i = 0; i < table.directions.size(); ++i) {
-        out.columns.push_back(
-            {fmt::format("error_{}", i + 1), table.directions[i], Align::right, kError});
+        // A line may break after the hyphen of "->", so here it is one character.
+        std::string direction = table.directions[i];
+        if (const auto at = direction.rfind(" -> "); at != std::string::npos)
+            direction.replace(at, 4, " \u2192 ");
+        out.columns.push_back({fmt::format("error_{}", i + 1), direction, Align::right, kError});
         out.columns.push_back({fmt::format("gain_{}", i + 1), "gain", Align::right, kWhole, true});
     }
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
@@ -160,10 +151,9 @@ Figure context_figure(const Characterization& table, const CharacterizationVerdi
             if (table.rows[r].block != "context" || !std::isfinite(verdict.gains[r][i].value))
                 continue;
             const Resolved& gain = verdict.gains[r][i];
-            FigurePoint point{double(panel.x.categories.size()), gain.value};
-            if (gain.block) point.bounds = Bounds{gain.block->low, gain.block->high};
+            series.points.push_back(
+                interval_point(double(panel.x.categories.size()), gain.value, gain.block));
             panel.x.categories.push_back(fmt::format("{}", table.rows[r].context));
-            series.points.push_back(point);
         }
         if (series.points.empty()) continue;
         panel.series.push_back(std::move(series));
@@ -276,18 +266,11 @@ Report characterization_report(const EvaluationProtocol& p, const Characterizati
 
 Json json_of(const EvaluationProtocol& p, const Characterization& table,
              const CharacterizationVerdict& verdict) {
-    Json out = {{"protocol",
-                 {{"context", p.context},
-                  {"horizons", p.horizons},
-                  {"stride", p.stride},
-                  {"max_windows", p.max_windows},
-                  {"area", to_string(p.area)},
-                  {"single", p.single}}},
-                {"directions", table.directions},
-                {"rows", Json::array()},
-                {"long_horizons", Json::object()},
-                {"verdict", verdict.sentences},
-                {"notes", Json::array()}};
+    Json protocol = protocol_json(p);
+    protocol["max_windows"] = p.max_windows;
+    Json out = {{"protocol", std::move(protocol)}, {"directions", table.directions},
+                {"rows", Json::array()},           {"long_horizons", Json::object()},
+                {"verdict", verdict.sentences},    {"notes", notes_json(table.notes)}};
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const CharacterizationRow& row = table.rows[r];
         Json cells = Json::object();
@@ -304,19 +287,17 @@ Json json_of(const EvaluationProtocol& p, const Characterization& table,
                                {"directions", std::move(cells)}});
     }
     for (const LongVerdict& v : verdict.far)
-        out["long_horizons"][v.direction] = {{"horizons", v.horizons},
-                                             {"windows", v.windows},
-                                             {"windows_independent", v.independent},
-                                             {"persistence", numbers(v.persistence)},
-                                             {"clamped", numbers(v.clamped)},
-                                             {"unclamped", numbers(v.unclamped)},
-                                             {"outside", numbers(v.outside)},
-                                             {"outside_by_a_step", numbers(v.outside_by_a_step)},
-                                             {"moved", numbers(v.moved)},
-                                             {"crossings", v.crossings}};
-    for (const Status& s : table.notes)
-        out["notes"].push_back(
-            {{"id", s.id}, {"severity", to_string(s.severity)}, {"sentence", s.sentence}});
+        out["long_horizons"][v.direction] = {
+            {"horizons", v.horizons},
+            {"windows", v.windows},
+            {"windows_independent", v.independent},
+            {"persistence", numbers_json(v.persistence)},
+            {"clamped", numbers_json(v.clamped)},
+            {"unclamped", numbers_json(v.unclamped)},
+            {"outside", numbers_json(v.outside)},
+            {"outside_by_a_step", numbers_json(v.outside_by_a_step)},
+            {"moved", numbers_json(v.moved)},
+            {"crossings", v.crossings}};
     return out;
 }
 

@@ -46,9 +46,9 @@ bool holds(const std::string& text, const char* part) {
 
 std::string against_still(double gain) {
     if (gain < -1) return fmt::format("with {:.3g} times the error of holding still", 1 - gain);
-    return gain > 0   ? fmt::format("{:.1f} % better than holding still", 100 * gain)
-           : gain < 0 ? fmt::format("{:.1f} % worse than holding still", -100 * gain)
-                      : "no better and no worse than holding still";
+    return printed_sign(gain) > 0   ? fmt::format("{:.1f} % better than holding still", 100 * gain)
+           : printed_sign(gain) < 0 ? fmt::format("{:.1f} % worse than holding still", -100 * gain)
+                                    : "no better and no worse than holding still";
 }
 
 std::string context_sentence(const BlockView& view) {
@@ -59,8 +59,11 @@ std::string context_sentence(const BlockView& view) {
         const double gain = view.cell(view.rows()[i]).gain;
         all.push_back(fmt::format("{} {}", signed_percent(gain), view.rows()[i]->setting));
         if (i == 0) continue;
-        rises = rises && gain > view.cell(view.rows()[i - 1]).gain;
-        falls = falls && gain < view.cell(view.rows()[i - 1]).gain;
+        // Of what is printed: two gains that read the same neither rise nor fall.
+        const double more =
+            std::nearbyint(1000 * gain) - std::nearbyint(1000 * view.cell(view.rows()[i - 1]).gain);
+        rises = rises && more > 0;
+        falls = falls && more < 0;
     }
     const bool order = view.rows().size() > 2;
     std::string text = fmt::format("of the contexts tried {} is best, {} ({})", best->setting,
@@ -82,16 +85,19 @@ std::string family_sentence(const BlockView& view, const char* fitted,
     if (!whole || !rest) return "";
     const Resolved difference =
         resolved(paired_difference(view.cell(whole).ratios, view.cell(rest).ratios), options);
-    const bool wins = difference.value > 0;
+    const int sign = printed_sign(difference.value);
     const bool specimen = holds(fitted, "the specimen");
-    return fmt::format(
-        "{}, the full matrix {} ({} against {} of the {}{}; of the difference {}).",
-        specimen ? "fitted to the specimen's pixels only" : "fitted to all pixels",
-        wins ? "wins" : "does not win", signed_percent(view.cell(whole).gain),
-        signed_percent(view.cell(rest).gain), rest->setting.substr(0, rest->setting.find(" (")),
-        view.cell(whole).gain < 0 && view.cell(rest).gain < 0 ? ", both worse than holding still"
-                                                              : "",
-        how_sure(difference));
+    return fmt::format("{}, the full matrix {} ({} against {} of the {}{}; of the difference {}).",
+                       specimen ? "fitted to the specimen's pixels only" : "fitted to all pixels",
+                       sign > 0   ? "wins"
+                       : sign < 0 ? "does not win"
+                                  : "does as well",
+                       signed_percent(view.cell(whole).gain), signed_percent(view.cell(rest).gain),
+                       rest->setting.substr(0, rest->setting.find(" (")),
+                       view.cell(whole).gain < 0 && view.cell(rest).gain < 0
+                           ? ", both worse than holding still"
+                           : "",
+                       how_sure(difference));
 }
 
 std::string order_sentence(const BlockView& view, const BootstrapOptions& options) {
@@ -103,9 +109,13 @@ std::string order_sentence(const BlockView& view, const BootstrapOptions& option
     const double ratio = view.cell(second).error / view.cell(first).error;
     const Resolved difference =
         resolved(paired_difference(view.cell(second).ratios, view.cell(first).ratios), options);
-    const std::string numbers = fmt::format("its error is {:.2g} times that of order 1", ratio);
-    return fmt::format("order 2 {} ({}; of the difference in gain {}).",
-                       ratio < 1 ? "pays" : "does not pay", numbers, how_sure(difference));
+    const std::string times = fmt::format("{:.3g}", ratio);  // what reads as 1 is no difference
+    return fmt::format(
+        "order 2 {} (its error is {} times that of order 1; of the difference in gain {}).",
+        times == "1" ? "makes no difference"
+        : ratio < 1  ? "pays"
+                     : "does not pay",
+        times, how_sure(difference));
 }
 
 std::string ridge_sentence(const BlockView& view, const BootstrapOptions& options) {
@@ -116,6 +126,7 @@ std::string ridge_sentence(const BlockView& view, const BootstrapOptions& option
     if (best == none) return "no ridge that was tried improves on none.";
     const Resolved difference =
         resolved(paired_difference(view.cell(best).ratios, view.cell(none).ratios), options);
+    if (printed_sign(difference.value) == 0) return "no ridge that was tried improves on none.";
     return fmt::format(
         "of the ridges tried {} is best ({} against {} without; of the difference "
         "{}).",

@@ -7,29 +7,18 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
+
+#include "verdigris/results/cells.h"
 
 namespace verdigris {
 namespace {
 using Json = nlohmann::ordered_json;
 
-constexpr NumberFormat kError{NumberStyle::scientific, 2, false};
-constexpr NumberFormat kGain{NumberStyle::percent, 1, true};
 constexpr NumberFormat kShare{NumberStyle::percent, 2, false};
-constexpr NumberFormat kCount{NumberStyle::integer, 0, false};
 constexpr std::array<const char*, 3> kChannels{"red", "green", "blue"};
 // Series take their inks in order, and these are the inks of blue, red and green (palette.h).
 constexpr std::array<std::size_t, 3> kDrawn{2, 0, 1};
-
-Json number(double v) {
-    return std::isfinite(v) ? Json(v) : Json(nullptr);
-}
-template <class T>
-TableCell cell_or_missing(const std::optional<T>& v) {
-    return v ? TableCell(double(*v)) : TableCell();
-}
-TableCell finite_or_missing(double v) {
-    return std::isfinite(v) ? TableCell(v) : TableCell();
-}
 
 FigureSeries channel(const std::string& name, const std::vector<ChannelValues>& values,
                      std::size_t c, int stride, double less = 0) {
@@ -73,9 +62,7 @@ FigurePanel gain_panel(const RecordingDrift& drift) {
         if (series == panel.series.end())
             series = panel.series.insert(series, {g.forecaster, SeriesKind::points, {}});
         if (!std::isfinite(g.gain.value)) continue;
-        FigurePoint point{x, g.gain.value};
-        if (g.gain.block) point.bounds = Bounds{g.gain.block->low, g.gain.block->high};
-        series->points.push_back(point);
+        series->points.push_back(interval_point(x, g.gain.value, g.gain.block));
     }
     panel.references.push_back({"persistence", 0});
     return panel;
@@ -131,16 +118,13 @@ Table drift_gain_table(const std::vector<RecordingDrift>& list) {
     table.columns = {
         {"forecaster", "Forecaster", Align::left},    {"correction", "Correction", Align::left},
         {"windows", "windows", Align::right, kCount}, {"error", "error", Align::right, kError},
-        {"gain", "gain", Align::right, kGain, true},  {"blocks", "blocks better", Align::left}};
+        {"gain", "gain", Align::right, kGain, true},  {"blocks", "better in", Align::left}};
     for (const RecordingDrift& d : list) {
         RowGroup group{d.name, {}};
         for (const DriftGain& g : d.gains) {
-            const auto better = std::ranges::count_if(
-                g.gain.blocks, [](const BlockGain& b) { return b.value > 0; });
-            group.rows.push_back(
-                {TableCell(g.forecaster), TableCell(to_string(g.correction)),
-                 TableCell(g.gain.windows), finite_or_missing(g.error), cell_of(g.gain),
-                 TableCell(fmt::format("{} of {}", better, g.gain.blocks.size()))});
+            group.rows.push_back({TableCell(g.forecaster), TableCell(to_string(g.correction)),
+                                  TableCell(g.gain.windows), finite_or_missing(g.error),
+                                  cell_of(g.gain), TableCell(blocks_better(g.gain.blocks))});
         }
         table.groups.push_back(std::move(group));
     }
@@ -290,14 +274,12 @@ Report drift_report(const EvaluationProtocol& p, const std::vector<RecordingDrif
 }
 
 Json json_of(const EvaluationProtocol& p, const std::vector<RecordingDrift>& list) {
-    Json out = {{"protocol",
-                 {{"context", p.context},
-                  {"horizons", p.horizons},
-                  {"stride", p.stride},
-                  {"area", to_string(p.area)},
-                  {"single", true}}},
-                {"recordings", Json::object()}};
-    const auto optional = [](const std::optional<double>& v) { return v ? number(*v) : Json(); };
+    Json protocol = protocol_json(p);
+    protocol["single"] = true;
+    Json out = {{"protocol", std::move(protocol)}, {"recordings", Json::object()}};
+    const auto optional = [](const std::optional<double>& v) {
+        return v ? number_json(*v) : Json();
+    };
     for (const RecordingDrift& d : list) {
         Json r = {{"reference",
                    {{"found", d.region.found()},
@@ -307,7 +289,7 @@ Json json_of(const EvaluationProtocol& p, const std::vector<RecordingDrift>& lis
                   {"movement", nullptr},
                   {"gains", Json::object()},
                   {"verdict", d.sentences},
-                  {"notes", Json::array()}};
+                  {"notes", notes_json(d.notes)}};
         if (d.series)
             r["movement"] = {{"specimen", d.series->specimen_movement},
                              {"reference", d.series->reference_movement},
@@ -316,13 +298,10 @@ Json json_of(const EvaluationProtocol& p, const std::vector<RecordingDrift>& lis
                              {"smooth_correlation", optional(d.series->smooth_luma_correlation)}};
         for (const DriftGain& g : d.gains) {
             Json gain = json_of(g.gain);
-            gain["error"] = number(g.error);
-            gain["persistence"] = number(g.persistence);
+            gain["error"] = number_json(g.error);
+            gain["persistence"] = number_json(g.persistence);
             r["gains"][g.forecaster][to_string(g.correction)] = std::move(gain);
         }
-        for (const Status& s : d.notes)
-            r["notes"].push_back(
-                {{"id", s.id}, {"severity", to_string(s.severity)}, {"sentence", s.sentence}});
         out["recordings"][d.name] = std::move(r);
     }
     return out;

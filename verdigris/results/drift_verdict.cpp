@@ -62,9 +62,12 @@ std::string result_sentence(const RecordingDrift& drift, const std::string& fore
     const DriftGain& raw = drift.gain_of(forecaster, std::nullopt);
     if (!std::isfinite(raw.gain.value))
         return fmt::format("{} cannot be judged, since no window changes.", forecaster);
+    const int as_recorded = printed_sign(raw.gain.value);
     std::string text =
-        fmt::format("{} is {:.1f} % {} than holding still as recorded", forecaster,
-                    100 * std::fabs(raw.gain.value), raw.gain.value > 0 ? "better" : "worse");
+        as_recorded == 0
+            ? fmt::format("{} equals holding still as recorded", forecaster)
+            : fmt::format("{} is {:.1f} % {} than holding still as recorded", forecaster,
+                          100 * std::fabs(raw.gain.value), as_recorded > 0 ? "better" : "worse");
     if (drift.maps.empty())
         return text + fmt::format(
                           " ({}); without a reference it stays open how much of that is the "
@@ -81,14 +84,14 @@ std::string result_sentence(const RecordingDrift& drift, const std::string& fore
             continue;
         }
         least = std::min(least, g.gain.value);
-        better += g.gain.value > 0;
+        better += printed_sign(g.gain.value) > 0;
         settled += sign_is_settled(g.gain) && g.gain.value > 0;
     }
     text += fmt::format("; after correction {}: ", fmt::join(parts, ", "));
     if (gone == 3) return text + "what changed was the light, and nothing of the result survives.";
     const std::string sure =
         fmt::format(" (the blocks settle that it is better in {} of 3)", settled);
-    if (raw.gain.value <= 0)
+    if (as_recorded <= 0)
         return text + (better == 0 ? "there is no advantage to survive."
                                    : fmt::format("no advantage as recorded, one after {} of 3 "
                                                  "corrections{}.",

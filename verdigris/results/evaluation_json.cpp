@@ -5,29 +5,31 @@
 #include <nlohmann/json.hpp>
 
 #include "verdigris/error.h"
+#include "verdigris/results/cells.h"
 
 namespace verdigris {
 namespace {
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kRecordFormat = "verdigris-evaluation-record/1";
+constexpr const char* kRecordFormat = "verdigris-evaluation-record/2";
 
-Json number(double v) {
-    return std::isfinite(v) ? Json(v) : Json(nullptr);
-}
-Json numbers(const std::vector<double>& values) {
-    Json list = Json::array();
-    for (const double v : values) list.push_back(number(v));
-    return list;
-}
-Json interval(const std::optional<Interval>& i) {
-    return i ? Json{number(i->low), number(i->high)} : Json(nullptr);
-}
 Json range(SampleRange r) {
     return Json{r.begin, r.end};
 }
 SampleRange range_from(const Json& json) {
     return {json.at(0).get<int>(), json.at(1).get<int>()};
+}
+Json surface(const SurfacePrint& print) {
+    return {{"place", print.place}, {"cells", print.cells}};
+}
+SurfacePrint surface_from(const Json& json, const std::string& where) {
+    SurfacePrint print{json.at("place"), json.at("cells")};
+    // A print of another size would be read beyond its end.
+    constexpr std::size_t kCells =
+        std::size_t(SurfacePrint::kMoments) * SurfacePrint::kSide * SurfacePrint::kSide;
+    if (!print.empty() && print.cells.size() != kCells)
+        throw Error(ErrorCode::bad_input, "has the print of a surface in another size", where);
+    return print;
 }
 double mean(const ErrorTable& t) {
     return t.empty() || t.windows == 0 ? std::nan("") : overall_mean(t);
@@ -35,30 +37,26 @@ double mean(const ErrorTable& t) {
 
 Json scores_json(const Direction& d, const EntrantScores& s, const EntrantVerdict* v) {
     const bool any = !d.starts.empty();
-    Json out = {
-        {"trained", s.trained},
-        {"error",
-         {{"mean", number(mean(s.foreground))},
-          {"per_horizon", any ? numbers(horizon_means(s.foreground)) : Json()}}},
-        {"specimen_error", number(mean(s.specimen))},
-        {"delta_e", number(mean(s.delta_e))},
-        {"bias", {number(mean(s.bias[0])), number(mean(s.bias[1])), number(mean(s.bias[2]))}}};
+    Json out = {{"trained", s.trained},
+                {"error",
+                 {{"mean", number_json(mean(s.foreground))},
+                  {"per_horizon", any ? numbers_json(horizon_means(s.foreground)) : Json()}}},
+                {"specimen_error", number_json(mean(s.specimen))},
+                {"delta_e", number_json(mean(s.delta_e))},
+                {"bias",
+                 {number_json(mean(s.bias[0])), number_json(mean(s.bias[1])),
+                  number_json(mean(s.bias[2]))}}};
     if (!v) return out;
-    out["gain"] = number(v->gain);
-    out["gain_per_horizon"] = any ? numbers(horizon_gains(d, s)) : Json();
-    out["intervals"] = {{"block", interval(v->block)},
-                        {"moving_block", interval(v->moving_block)},
-                        {"naive", interval(v->naive)}};
-    out["blocks"] = Json::array();
-    for (const BlockGain& b : v->blocks)
-        out["blocks"].push_back({{"first_start", b.first_start},
-                                 {"last_start", b.last_start},
-                                 {"windows", b.windows},
-                                 {"gain", number(b.value)}});
+    out["gain"] = number_json(v->gain);
+    out["gain_per_horizon"] = any ? numbers_json(horizon_gains(d, s)) : Json();
+    out["intervals"] = {{"block", interval_json(v->block)},
+                        {"circular_block", interval_json(v->circular_block)},
+                        {"naive", interval_json(v->naive)}};
+    out["blocks"] = blocks_json(v->blocks);
     for (const EntrantVerdict::Named& n : v->named)
         out["named_blocks"][n.block.name] = {{"units", {n.block.begin, n.block.end}},
                                              {"windows", n.windows},
-                                             {"gain", number(n.gain)}};
+                                             {"gain", number_json(n.gain)}};
     out["verdict"] = v->sentence;
     return out;
 }
@@ -66,14 +64,7 @@ Json scores_json(const Direction& d, const EntrantScores& s, const EntrantVerdic
 }  // namespace
 
 Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& list) {
-    const EvaluationProtocol& p = evaluation.protocol;
-    Json out = {{"protocol",
-                 {{"context", p.context},
-                  {"horizons", p.horizons},
-                  {"stride", p.stride},
-                  {"area", to_string(p.area)},
-                  {"single", p.single}}},
-                {"directions", Json::array()}};
+    Json out = {{"protocol", protocol_json(evaluation.protocol)}, {"directions", Json::array()}};
     for (const DirectionVerdict& verdict : list) {
         const Direction& d = *verdict.direction;
         Json direction = {{"label", d.label()},
@@ -82,8 +73,8 @@ Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& 
                           {"windows", d.starts.size()},
                           {"windows_skipped", d.skipped.size()},
                           {"windows_independent", d.plan.independent},
-                          {"noise", number(d.sigma)},
-                          {"tau", number(d.tau)},
+                          {"noise", number_json(d.sigma)},
+                          {"tau", number_json(d.tau)},
                           {"forecasters", Json::object()}};
         direction["forecasters"][d.persistence().name] = scores_json(d, d.persistence(), nullptr);
         for (std::size_t i = 1; i < d.entrants.size(); ++i)
@@ -93,15 +84,12 @@ Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& 
         for (const PairVerdict& pair : verdict.pairs)
             direction["pairs"].push_back({{"first", pair.first},
                                           {"second", pair.second},
-                                          {"difference", number(pair.difference)},
-                                          {"block", interval(pair.block)},
-                                          {"moving_block", interval(pair.moving_block)}});
+                                          {"difference", number_json(pair.difference)},
+                                          {"block", interval_json(pair.block)},
+                                          {"circular_block", interval_json(pair.circular_block)}});
         out["directions"].push_back(std::move(direction));
     }
-    out["notes"] = Json::array();
-    for (const Status& s : evaluation.notes)
-        out["notes"].push_back(
-            {{"id", s.id}, {"severity", to_string(s.severity)}, {"sentence", s.sentence}});
+    out["notes"] = notes_json(evaluation.notes);
     return out;
 }
 
@@ -114,7 +102,8 @@ Json json_of(const EvaluationRecord& record) {
                                      {"sha256", r.sha256},
                                      {"samples", r.samples},
                                      {"usable", range(r.usable)},
-                                     {"frame_hashes", r.frame_hashes}});
+                                     {"frame_hashes", r.frame_hashes},
+                                     {"surface", surface(r.surface)}});
     for (const DirectionRecord& d : record.directions) {
         Json uses = Json::array();
         for (const SampleUse& u : d.uses)
@@ -141,7 +130,8 @@ EvaluationRecord record_from(const Json& json, const std::string& where) {
         record.single = json.at("single");
         for (const Json& r : json.at("recordings"))
             record.recordings.push_back({r.at("name"), r.at("sha256"), r.at("samples"),
-                                         range_from(r.at("usable")), r.at("frame_hashes")});
+                                         range_from(r.at("usable")), r.at("frame_hashes"),
+                                         surface_from(r.at("surface"), where)});
         for (const Json& d : json.at("directions")) {
             DirectionRecord direction{d.at("held_out"), d.at("trained"), {}};
             for (const Json& u : d.at("uses")) {

@@ -9,16 +9,10 @@
 #include <limits>
 
 #include "verdigris/error.h"
+#include "verdigris/results/resolved.h"
 
 namespace verdigris {
 namespace {
-
-// chosen: of four blocks or fewer a percentile interval is little more than their range.
-constexpr std::size_t kFewBlocks = 5;
-
-std::string percent(double v) {
-    return fmt::format("{:+.1f} %", 100 * v);
-}
 
 // Better or worse is said only as far as the evidence goes.
 std::string sentence_of(const Direction& d, const EntrantVerdict& v, const EntrantScores& scores) {
@@ -26,7 +20,7 @@ std::string sentence_of(const Direction& d, const EntrantVerdict& v, const Entra
     if (!std::isfinite(v.gain))
         return fmt::format("{}: {} cannot be judged, since nothing changed.", d.label(), v.name);
     // chosen: what rounds to 0.0 % is neither better nor worse.
-    if (std::fabs(v.gain) < 5e-4)
+    if (printed_sign(v.gain) == 0)
         return fmt::format("{}: {} equals holding still (foreground MSE {} against {}).", d.label(),
                            v.name, error(v.error), error(v.persistence));
     std::string text =
@@ -34,20 +28,8 @@ std::string sentence_of(const Direction& d, const EntrantVerdict& v, const Entra
                     d.label(), v.name, 100 * std::fabs(v.gain), v.gain >= 0 ? "better" : "worse",
                     error(v.error), error(v.persistence));
     if (v.blocks.size() >= 2) {
-        const auto better = std::count_if(v.blocks.begin(), v.blocks.end(),
-                                          [](const BlockGain& b) { return b.value > 0; });
-        text += fmt::format(" It is better in {} of {} blocks", better, v.blocks.size());
-        if (v.blocks.size() < kFewBlocks) {
-            text +=
-                fmt::format("; {} blocks are too few to say how sure that is.", v.blocks.size());
-        } else if (v.block) {
-            const bool zero_inside = v.block->low <= 0 && v.block->high >= 0;
-            text += fmt::format("; the block interval {} to {} {} zero{}.", percent(v.block->low),
-                                percent(v.block->high), zero_inside ? "includes" : "excludes",
-                                zero_inside ? ", so the sign is not settled" : "");
-        } else {
-            text += ".";
-        }
+        const Resolved r{v.gain, int(d.starts.size()), v.block, v.blocks};
+        text += fmt::format(" It is better in {}; {}.", blocks_better(v.blocks), how_sure(r));
     } else {
         text += " There is one block only, so nothing can be said about how sure that is.";
     }
@@ -94,7 +76,7 @@ std::vector<PairVerdict> pairs_of(const Direction& d, const BootstrapOptions& op
             const WindowRatios ratios = difference_ratios(d, d.entrants[i], d.entrants[j]);
             pairs.push_back({d.entrants[i].name, d.entrants[j].name, ratio(ratios),
                              bootstrap(ratios, BootstrapKind::block, options),
-                             bootstrap(ratios, BootstrapKind::moving_block, options)});
+                             bootstrap(ratios, BootstrapKind::circular_block, options)});
         }
     }
     return pairs;
@@ -141,7 +123,7 @@ std::vector<DirectionVerdict> verdicts(const Evaluation& evaluation,
             const WindowRatios ratios = gain_ratios(d, scores);
             v.naive = bootstrap(ratios, BootstrapKind::naive, options);
             v.block = bootstrap(ratios, BootstrapKind::block, options);
-            v.moving_block = bootstrap(ratios, BootstrapKind::moving_block, options);
+            v.circular_block = bootstrap(ratios, BootstrapKind::circular_block, options);
             v.blocks = block_gains(ratios, options.block);
             v.named = named_gains(evaluation, d, ratios, blocks);
             v.sentence = sentence_of(d, v, scores);
@@ -151,6 +133,24 @@ std::vector<DirectionVerdict> verdicts(const Evaluation& evaluation,
         all.push_back(std::move(verdict));
     }
     return all;
+}
+
+std::vector<std::string> verdict_sentences(const std::vector<DirectionVerdict>& list) {
+    std::vector<std::string> sentences;
+    for (const DirectionVerdict& v : list) {
+        for (const EntrantVerdict& e : v.entrants) sentences.push_back(e.sentence);
+        const Direction& d = *v.direction;
+        if (!v.entrants.empty()) continue;
+        sentences.push_back(
+            d.starts.empty()
+                ? fmt::format("{}: no window could be scored.", d.label())
+                : fmt::format("{}: no forecaster was judged, only holding still: its foreground "
+                              "MSE over {} windows is {:.3g}, which is what a forecaster has to "
+                              "improve on (evaluate --forecasters affinergb,auto).",
+                              d.label(), d.starts.size(),
+                              overall_mean(d.persistence().foreground)));
+    }
+    return sentences;
 }
 
 Report evaluation_report(const Evaluation& evaluation, const std::vector<DirectionVerdict>& list) {
@@ -163,18 +163,18 @@ Report evaluation_report(const Evaluation& evaluation, const std::vector<Directi
         p.context, p.horizons, p.stride);
 
     ReportSection verdict{"verdict", "Verdict", {}};
-    BulletList sentences;
-    for (const DirectionVerdict& d : list)
-        for (const EntrantVerdict& e : d.entrants) sentences.items.push_back(e.sentence);
-    verdict.blocks.push_back(sentences);
+    verdict.blocks.push_back(BulletList{verdict_sentences(list)});
+    const bool any_judged = std::any_of(
+        list.begin(), list.end(), [](const DirectionVerdict& d) { return !d.entrants.empty(); });
     if (p.single)
         verdict.blocks.push_back(
             Paragraph{"Within-recording: nothing was held out. What was chosen while looking at "
                       "this recording is not judged by it."});
-    verdict.blocks.push_back(
-        Paragraph{"Windows overlap, so few blocks are independent. Intervals from so few are wide "
-                  "and still too narrow: on simulated errors their nominal 95 % covered 56 to 80 % "
-                  "(docs/PROTOCOL.md). The gains of the blocks are all the evidence there is."});
+    if (any_judged)
+        verdict.blocks.push_back(Paragraph{
+            "Windows overlap, so few blocks are independent. Intervals from so few are wide "
+            "and still too narrow: on simulated errors their nominal 95 % covered 58 to 80 % "
+            "(docs/PROTOCOL.md). The gains of the blocks are all the evidence there is."});
     report.sections.push_back(std::move(verdict));
 
     ReportSection leaks{"audit", "Leakage audit", {}};
@@ -192,10 +192,14 @@ Report evaluation_report(const Evaluation& evaluation, const std::vector<Directi
     report.sections.push_back(std::move(leaks));
 
     report.sections.push_back({"by-forecaster", "Errors", {error_table(evaluation)}});
-    report.sections.push_back(
-        {"how-sure",
-         "How sure",
-         {interval_table(list), gain_figure(list), pair_table(list), block_table(list)}});
+    if (any_judged) {
+        ReportSection sure{"how-sure", "How sure", {interval_table(list), gain_figure(list)}};
+        const bool any_pair = std::any_of(
+            list.begin(), list.end(), [](const DirectionVerdict& d) { return !d.pairs.empty(); });
+        if (any_pair) sure.blocks.emplace_back(pair_table(list));
+        sure.blocks.emplace_back(block_table(list));
+        report.sections.push_back(std::move(sure));
+    }
     report.sections.push_back({"by-horizon", "By horizon", {horizon_figure(evaluation)}});
     report.sections.push_back({"counts",
                                "Windows and protocol",

@@ -18,7 +18,7 @@ struct EntrantVerdict {
     std::string name;
     double error = 0, persistence = 0;  ///< mean foreground MSE
     double gain = 0;
-    std::optional<Interval> naive, block, moving_block;
+    std::optional<Interval> naive, block, circular_block;
     std::vector<BlockGain> blocks;
     struct Named {
         NamedBlock block;
@@ -33,7 +33,7 @@ struct EntrantVerdict {
 struct PairVerdict {
     std::string first, second;
     double difference = 0;  ///< gain(first) - gain(second): positive where the first is better
-    std::optional<Interval> block, moving_block;  ///< paired: the same windows drawn for both
+    std::optional<Interval> block, circular_block;  ///< paired: the same windows drawn for both
 };
 struct DirectionVerdict {
     const Direction* direction = nullptr;
@@ -46,7 +46,12 @@ struct DirectionVerdict {
 std::vector<DirectionVerdict> verdicts(const Evaluation& evaluation,
                                        const std::vector<NamedBlock>& blocks = {});
 
-/// Sections: verdict, audit, errors, intervals, blocks, horizons, protocol.
+/// What the page and the terminal say first: of each direction a sentence per forecaster, or, where
+/// none was judged but persistence, how large an error there is to improve on.
+std::vector<std::string> verdict_sentences(const std::vector<DirectionVerdict>& verdicts);
+
+/// Sections: verdict, audit, errors, intervals and blocks (of forecasters besides persistence),
+/// horizons, protocol.
 Report evaluation_report(const Evaluation& evaluation,
                          const std::vector<DirectionVerdict>& verdicts);
 

@@ -7,6 +7,7 @@
 
 #include "verdigris/error.h"
 #include "verdigris/files/testing.h"
+#include "verdigris/results/resolved.h"
 #include "verdigris/results/testing.h"
 
 namespace verdigris {
@@ -89,6 +90,72 @@ TEST(EvaluationReport, AnIntervalAcrossZeroIsNotCalledSettled) {
     EXPECT_GT(v.block->high, 0);
     EXPECT_NE(v.sentence.find("includes zero, so the sign is not settled"), std::string::npos)
         << v.sentence;
+}
+
+// Blocks of one span each, in which the model's error is persistence's times a factor.
+EntrantVerdict verdict_of(const std::vector<double>& factors) {
+    Evaluation e = testing::small_evaluation();
+    e.directions.resize(1);
+    Direction& d = e.directions[0];
+    const int span = e.protocol.span();
+    d.starts.clear();
+    EntrantScores &held = d.entrants[0], &model = d.entrants[1];
+    held.delta_e = model.delta_e = {};
+    held.foreground = model.foreground = ErrorTable(int(factors.size()) * span, 4);
+    for (int w = 0; w < held.foreground.windows; ++w) {
+        d.starts.push_back(w);
+        for (int k = 0; k < 4; ++k) {
+            held.foreground.at(w, k) = 1;
+            model.foreground.at(w, k) = factors[std::size_t(w / span)];
+        }
+    }
+    return verdicts(e)[0].entrants[0];
+}
+
+TEST(EvaluationReport, WhatIsSaidAgreesWithWhatIsPrinted) {
+    // The low end is +0.02 %, which prints as 0.0 %: nobody could see that it excludes zero.
+    const EntrantVerdict v = verdict_of({0.9998, 0.9998, 0.9998, 0.9998, 0.9998, 0.5});
+    ASSERT_TRUE(v.block);
+    EXPECT_GT(v.block->low, 0);
+    EXPECT_LT(v.block->low, 5e-4);
+    EXPECT_NE(v.sentence.find("the block interval 0.0 % to +"), std::string::npos) << v.sentence;
+    EXPECT_NE(v.sentence.find("includes zero"), std::string::npos) << v.sentence;
+    EXPECT_FALSE(sign_is_settled({v.gain, 6, v.block, v.blocks}));
+    // From below it is no "-0.0 %" either.
+    const EntrantVerdict w = verdict_of({1.0002, 1.0002, 1.0002, 1.0002, 1.0002, 1.5});
+    EXPECT_NE(w.sentence.find(" to 0.0 % includes zero"), std::string::npos) << w.sentence;
+    // A tenth of a percent is printed, and settles.
+    EXPECT_NE(verdict_of({0.999, 0.999, 0.999, 0.999, 0.999, 0.5}).sentence.find("excludes zero"),
+              std::string::npos);
+}
+
+TEST(EvaluationReport, EqualBlocksAreNoLosses) {
+    const EntrantVerdict v = verdict_of({1, 1, 0.5, 0.6, 0.7, 1.2});
+    EXPECT_NE(v.sentence.find("better in 3 of 6 blocks and equal in 2;"), std::string::npos)
+        << v.sentence;
+    EXPECT_NE(verdict_of({0.5, 0.5, 0.5, 0.5, 0.5, 2}).sentence.find("in 5 of 6 blocks;"),
+              std::string::npos);
+}
+
+TEST(EvaluationReport, HoldingStillAloneSaysWhatThereIsToImproveOn) {
+    Evaluation e = testing::small_evaluation();
+    for (Direction& d : e.directions) d.entrants.resize(1);
+    const auto list = verdicts(e);
+    const auto sentences = verdict_sentences(list);
+    ASSERT_EQ(sentences.size(), 2u);
+    EXPECT_NE(sentences[0].find("only holding still: its foreground MSE over"), std::string::npos)
+        << sentences[0];
+    const Report report = evaluation_report(e, list);
+    check_report(report);
+    for (const ReportSection& s : report.sections) {
+        EXPECT_NE(s.id, "how-sure") << "there is no gain to be sure of";
+        for (const ReportBlock& block : s.blocks) {
+            const auto* table = std::get_if<Table>(&block);
+            if (table) {
+                EXPECT_GT(table->groups.size(), 0u) << table->id;
+            }
+        }
+    }
 }
 
 TEST(EvaluationReport, PairsAreDifferencesOfGains) {

@@ -6,27 +6,16 @@
 #include <cmath>
 #include <map>
 
+#include "verdigris/results/cells.h"
 #include "verdigris/results/evaluation_report.h"
 
 namespace verdigris {
 namespace {
 
-constexpr NumberFormat kError{NumberStyle::scientific, 2, false};
-constexpr NumberFormat kGain{NumberStyle::percent, 1, true};
 constexpr NumberFormat kSmall{NumberStyle::fixed, 2, false};
-constexpr NumberFormat kCount{NumberStyle::integer, 0, false};
-
-TableCell interval_cell(double value, const std::optional<Interval>& interval) {
-    if (!std::isfinite(value)) return {};
-    return interval ? TableCell(value, {interval->low, interval->high}) : TableCell(value);
-}
 
 double mean_or_nan(const ErrorTable& table) {
     return table.empty() || table.windows == 0 ? std::nan("") : overall_mean(table);
-}
-
-TableCell number_or_missing(double v) {
-    return std::isfinite(v) ? TableCell(v) : TableCell();
 }
 
 // The horizons worth a column: first, middle, last.
@@ -68,11 +57,11 @@ Table error_table(const Evaluation& evaluation) {
                 any ? horizon_means(s.foreground) : std::vector<double>();
             for (const int k : shown)
                 row.push_back(any ? TableCell(means[std::size_t(k - 1)]) : TableCell());
-            row.push_back(number_or_missing(mean_or_nan(s.foreground)));
-            row.push_back(number_or_missing(any ? gain(d, s) : std::nan("")));
-            row.push_back(number_or_missing(mean_or_nan(s.specimen)));
-            row.push_back(number_or_missing(mean_or_nan(s.delta_e)));
-            row.push_back(number_or_missing(
+            row.push_back(finite_or_missing(mean_or_nan(s.foreground)));
+            row.push_back(finite_or_missing(any ? gain(d, s) : std::nan("")));
+            row.push_back(finite_or_missing(mean_or_nan(s.specimen)));
+            row.push_back(finite_or_missing(mean_or_nan(s.delta_e)));
+            row.push_back(finite_or_missing(
                 (mean_or_nan(s.bias[0]) + mean_or_nan(s.bias[1]) + mean_or_nan(s.bias[2])) / 3));
             group.rows.push_back(std::move(row));
         }
@@ -88,21 +77,20 @@ Table interval_table(const std::vector<DirectionVerdict>& list) {
     table.title = "Gains with intervals";
     table.caption =
         "Gain over persistence with nominal 95 % intervals by three bootstraps: windows one by one "
-        "(naive, far too narrow), non-overlapping blocks, blocks at any offset. The last draw the "
-        "middle "
-        "of a recording more often than its ends: where those differ, the gain itself can lie "
-        "outside.";
+        "(naive, far too narrow), non-overlapping blocks, and blocks at any offset of the "
+        "recording "
+        "joined to a circle.";
     table.group_header = "direction";
     table.columns = {{"forecaster", "Forecaster", Align::left},
                      {"block", "gain, blocks", Align::right, kGain, true},
-                     {"moving_block", "moving blocks", Align::right, kGain, true},
+                     {"circular_block", "circular blocks", Align::right, kGain, true},
                      {"naive", "naive", Align::right, kGain, true}};
     for (const DirectionVerdict& d : list) {
         RowGroup group;
         group.title = d.direction->label();
         for (const EntrantVerdict& e : d.entrants) {
             group.rows.push_back({TableCell(e.name), interval_cell(e.gain, e.block),
-                                  interval_cell(e.gain, e.moving_block),
+                                  interval_cell(e.gain, e.circular_block),
                                   interval_cell(e.gain, e.naive)});
         }
         table.groups.push_back(std::move(group));
@@ -121,14 +109,14 @@ Table pair_table(const std::vector<DirectionVerdict>& list) {
     table.columns = {{"first", "First", Align::left},
                      {"second", "Second", Align::left},
                      {"block", "difference, blocks", Align::right, kGain, true},
-                     {"moving_block", "moving blocks", Align::right, kGain, true}};
+                     {"circular_block", "circular blocks", Align::right, kGain, true}};
     for (const DirectionVerdict& d : list) {
         RowGroup group;
         group.title = d.direction->label();
         for (const PairVerdict& p : d.pairs)
             group.rows.push_back({TableCell(p.first), TableCell(p.second),
                                   interval_cell(p.difference, p.block),
-                                  interval_cell(p.difference, p.moving_block)});
+                                  interval_cell(p.difference, p.circular_block)});
         table.groups.push_back(std::move(group));
     }
     return table;
@@ -154,12 +142,12 @@ Table block_table(const std::vector<DirectionVerdict>& list) {
                 group.rows.push_back(
                     {TableCell(e.name),
                      TableCell(fmt::format("samples {} to {}", b.first_start, b.last_start)),
-                     TableCell(b.windows), number_or_missing(b.value)});
+                     TableCell(b.windows), finite_or_missing(b.value)});
             for (const EntrantVerdict::Named& n : e.named)
                 group.rows.push_back({TableCell(e.name),
                                       TableCell(fmt::format("{} (units {:g} to {:g})", n.block.name,
                                                             n.block.begin, n.block.end)),
-                                      TableCell(n.windows), number_or_missing(n.gain)});
+                                      TableCell(n.windows), finite_or_missing(n.gain)});
         }
         table.groups.push_back(std::move(group));
     }
@@ -256,11 +244,7 @@ Figure horizon_figure(const Evaluation& evaluation) {
         }
         figure.panels.push_back(std::move(panel));
     }
-    if (figure.panels.empty()) {
-        FigurePanel empty;
-        empty.title = "no window was scored";
-        figure.panels.push_back(std::move(empty));
-    }
+    never_empty(figure);
     return figure;
 }
 
@@ -279,10 +263,9 @@ Figure gain_figure(const std::vector<DirectionVerdict>& list) {
         FigureSeries series{"gain", SeriesKind::points, {}};
         for (const EntrantVerdict& e : d.entrants) {
             if (!std::isfinite(e.gain)) continue;
-            FigurePoint point{double(panel.x.categories.size()), e.gain};
-            if (e.block) point.bounds = Bounds{e.block->low, e.block->high};
+            series.points.push_back(
+                interval_point(double(panel.x.categories.size()), e.gain, e.block));
             panel.x.categories.push_back(e.name);
-            series.points.push_back(point);
         }
         panel.series.push_back(std::move(series));
         panel.references.push_back({"persistence", 0});

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "verdigris/error.h"
+#include "verdigris/results/cells.h"
 
 namespace verdigris {
 namespace {
@@ -15,10 +17,6 @@ using Json = nlohmann::ordered_json;
 
 // chosen: of four blocks or fewer a percentile interval is little more than their range.
 constexpr std::size_t kFewBlocks = 5;
-
-Json number(double v) {
-    return std::isfinite(v) ? Json(v) : Json(nullptr);
-}
 
 }  // namespace
 
@@ -41,8 +39,25 @@ WindowRatios paired_difference(const WindowRatios& first, const WindowRatios& se
     return difference;
 }
 
+int printed_sign(double fraction) {
+    const double tenths = std::nearbyint(1000 * fraction);
+    return tenths > 0 ? 1 : tenths < 0 ? -1 : 0;
+}
+
 bool sign_is_settled(const Resolved& r) {
-    return r.blocks.size() >= kFewBlocks && r.block && (r.block->low > 0 || r.block->high < 0);
+    return r.blocks.size() >= kFewBlocks && r.block &&
+           (printed_sign(r.block->low) > 0 || printed_sign(r.block->high) < 0);
+}
+
+std::string blocks_better(const std::vector<BlockGain>& blocks) {
+    const auto of_sign = [&](int sign) {
+        return std::ranges::count_if(blocks, [&](const BlockGain& b) {
+            return std::isfinite(b.value) && printed_sign(b.value) == sign;
+        });
+    };
+    std::string text = fmt::format("{} of {} blocks", of_sign(1), blocks.size());
+    if (of_sign(0) > 0) text += fmt::format(" and equal in {}", of_sign(0));
+    return text;
 }
 
 std::string how_sure(const Resolved& r) {
@@ -56,25 +71,18 @@ std::string how_sure(const Resolved& r) {
 }
 
 std::string signed_percent(double fraction) {
-    return fmt::format("{:+.1f} %", 100 * fraction);
+    return printed_sign(fraction) == 0 ? "0.0 %" : fmt::format("{:+.1f} %", 100 * fraction);
 }
 
 TableCell cell_of(const Resolved& r) {
-    if (!std::isfinite(r.value)) return {};
-    return r.block ? TableCell(r.value, {r.block->low, r.block->high}) : TableCell(r.value);
+    return interval_cell(r.value, r.block);
 }
 
 Json json_of(const Resolved& r) {
-    Json blocks = Json::array();
-    for (const BlockGain& b : r.blocks)
-        blocks.push_back({{"first_start", b.first_start},
-                          {"last_start", b.last_start},
-                          {"windows", b.windows},
-                          {"gain", number(b.value)}});
-    return {{"gain", number(r.value)},
-            {"interval", r.block ? Json{number(r.block->low), number(r.block->high)} : Json()},
+    return {{"gain", number_json(r.value)},
+            {"interval", interval_json(r.block)},
             {"windows", r.windows},
-            {"blocks", std::move(blocks)}};
+            {"blocks", blocks_json(r.blocks)}};
 }
 
 }  // namespace verdigris

@@ -26,13 +26,19 @@ Resolved resolved(const WindowRatios& ratios, const BootstrapOptions& options);
 /// Throws Error{usage} if they were not.
 WindowRatios paired_difference(const WindowRatios& first, const WindowRatios& second);
 
-/// Five blocks or more, and the interval leaves zero outside.
+/// A gain as it is printed, to 0.1 %, so that words and numbers agree: -1, 0 or 1.
+int printed_sign(double fraction);
+
+/// Five blocks or more, and the interval as printed leaves zero outside: of an end that reads 0.0 %
+/// nobody can see on which side it lies.
 bool sign_is_settled(const Resolved& r);
+/// "3 of 6 blocks", "3 of 6 blocks and equal in 2": those whose gain as printed is above zero.
+std::string blocks_better(const std::vector<BlockGain>& blocks);
 /// "the block interval -1.0 % to +3.0 % includes zero, so the sign is not settled"; "3 blocks are
 /// too few to say how sure that is".
 std::string how_sure(const Resolved& r);
 
-/// "+12.3 %"
+/// "+12.3 %"; "0.0 %" for what rounds to it.
 std::string signed_percent(double fraction);
 /// The value with its interval; missing where it is no number.
 TableCell cell_of(const Resolved& r);

@@ -11,3 +11,4 @@
 #include "verdigris/results/evaluation_report.h"
 #include "verdigris/results/protocol_file.h"
 #include "verdigris/results/resolved.h"
+#include "verdigris/results/result_files.h"
