@@ -7,9 +7,13 @@
 # scripts/tidy.sh (clang-tidy) is separate: it takes long and finds taste more often than mistakes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/install_packages.sh build report viewer test
+scripts/install_packages.sh build report viewer learn test
 scripts/build.sh ci
 ctest --preset ci -j2
+# The trained forecasters, in a build of their own: the rest must not need libtorch. One test at a
+# time, because libtorch takes all cores.
+scripts/build.sh learn verdigris_cli verdigris_fixture verdigris_learn_test
+ctest --preset learn -R '^(learn\.|cli\.learn)'
 if [ "${1:-}" != --quick ]; then
   # The rooms that read what others made, and their neighbors; the rest follows by hand where needed.
   scripts/build.sh sanitize verdigris_cli verdigris_fixture verdigris_recording_test \

@@ -21,6 +21,10 @@ struct Arguments {
 void run(Session& session, const Arguments& a) {
     check_results_folder(a.judge.output, kDriftFile, session.force);
     const std::vector<Entrant> entrants = entrants_from(a.forecasters);
+    if (const auto learned = checkpoints_among(a.forecasters); !learned.empty())
+        throw Error(ErrorCode::usage,
+                    "a network is judged by `evaluate` only: `drift` holds nothing out",
+                    learned.front());
     if (entrants.empty())
         throw Error(ErrorCode::usage,
                     "persistence gains nothing over itself; name another forecaster");

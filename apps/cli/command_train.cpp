@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A network learns how one recording goes on, to be judged on others, or to continue this one.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <cmath>
@@ -19,7 +20,8 @@ namespace {
 
 struct Arguments {
     JudgeArguments judge;
-    std::string model, source, device = "cpu";
+    std::string model, device = "cpu";
+    std::vector<std::string> sources;
     TrainOptions options;
     bool still = false;
 };
@@ -35,7 +37,7 @@ Figure loss_figure(const TrainedNetwork& trained) {
     loss.y = {"loss (1: persistence, about)", AxisScale::log10};
     validation.title = "validation, same recording";
     validation.y = {"foreground MSE", AxisScale::log10};
-    FigureSeries a{trained.facts.recording.empty() ? "loss" : "training windows"}, b{"network"};
+    FigureSeries a{"training windows"}, b{"network"};
     for (const EpochRecord& e : trained.epochs) {
         a.points.push_back({double(e.epoch), e.train_loss});
         b.points.push_back({double(e.epoch), e.validation_error});
@@ -72,23 +74,27 @@ void run(Session& session, Arguments a) {
                     "holds a run already; go on with it with --resume, or choose another folder",
                     folder.string());
     }
-    a.judge.recordings = {a.source};
+    a.judge.recordings = a.sources;
     const std::vector<Observation> observations = observe_all(session, a.judge);
     const EvaluationProtocol protocol = protocol_for(session, a.judge, observations);
-    const Observation& observation = observations.front();
-    const WindowPlan plan =
-        plan_windows(protocol, observation.store->count(), observation.source_name);
-    if (!plan.splits) {
-        throw Error(ErrorCode::refused, "cannot be trained on: " + plan.splits_problem,
-                    observation.source_name);
+    std::vector<TrainingSource> sources;
+    for (const Observation& o : observations) {
+        const WindowPlan plan = plan_windows(protocol, o.store->count(), o.source_name);
+        if (!plan.splits) {
+            throw Error(ErrorCode::refused, "cannot be trained on: " + plan.splits_problem,
+                        o.source_name);
+        }
+        sources.push_back({o.source_name, &o, plan.splits->train, plan.splits->validation});
     }
-    const TrainingSource source{observation.source_name, &observation, plan.splits->train,
-                                plan.splits->validation};
-    const NetworkConfig config{a.options.kind, protocol.context, observation.width()};
-    session.say(fmt::format(
-        "training  {}, {:.2f}M parameters, on samples {} to {} of {}; epochs chosen on {} to {}",
-        a.model, double(Network(config).parameter_count()) / 1e6, source.train.begin,
-        source.train.end - 1, source.name, source.validation.begin, source.validation.end - 1));
+    const NetworkConfig config{a.options.kind, protocol.context, observations.front().width()};
+    session.say(fmt::format("training  {}, {:.2f}M parameters", a.model,
+                            double(Network(config).parameter_count()) / 1e6));
+    for (const TrainingSource& s : sources) {
+        session.say(fmt::format(
+            "          on samples {} to {} of {}; the epoch is chosen on {} "
+            "to {}",
+            s.train.begin, s.train.end - 1, s.name, s.validation.begin, s.validation.end - 1));
+    }
     fs::create_directories(folder);
     write_file(folder / kProtocolFile, protocol_text(protocol));
     const auto told = [&](const EpochRecord& e) {
@@ -99,7 +105,7 @@ void run(Session& session, Arguments a) {
                         100 * gain_over(e.validation_error, e.validation_persistence), e.seconds));
     };
     const TrainedNetwork trained =
-        train_network(protocol, source, a.options, folder, session.progress(), told);
+        train_network(protocol, sources, a.options, folder, session.progress(), told);
     const Figure figure = loss_figure(trained);
     if (gnuplot_is_installed()) {
         write_file(folder / "loss.svg", draw_figure(figure, FigureFormat::svg));
@@ -121,7 +127,7 @@ void run(Session& session, Arguments a) {
     for (const EpochRecord& e : trained.epochs) epochs.push_back(json_of(e));
     session.result({{"model", a.model},
                     {"parameters", trained.network->parameter_count()},
-                    {"source", source.name},
+                    {"sources", a.sources},
                     {"checkpoint", (folder / kBestFile).string()},
                     {"best_epoch", f.epoch},
                     {"validation_error", f.validation_error},
@@ -139,7 +145,7 @@ void add_train(CLI::App& app, Session& session) {
         app.add_subcommand("train", "Train a network on a recording (docs/models/learn.md)");
     command->add_option("MODEL", a->model, "patinanet, convlstm, predformer or horizonnet")
         ->required();
-    command->add_option("--source", a->source, "Video or folder of photographs to learn from")
+    command->add_option("--source", a->sources, "Videos or folders of photographs to learn from")
         ->required();
     a->judge.add_rules(*command);
     command->add_option("--epochs", a->options.epochs)->capture_default_str();

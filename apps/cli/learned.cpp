@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <set>
@@ -21,6 +22,7 @@ bool is_checkpoint(const std::string& name) {
 
 void add_learned_commands(CLI::App& app, Session& session) {
     add_train(app, session);
+    add_susceptibility(app, session);
 }
 
 void check_checkpoints(const std::vector<std::string>& paths) {
@@ -34,17 +36,20 @@ std::vector<Entrant> learned_entrants(const std::vector<std::string>& paths,
     return checkpoint_entrants(std::move(checkpoints), protocol);
 }
 
-LearnedForecaster learned_forecaster(Session& session, const std::string& path,
-                                     const std::vector<double>& horizons,
+LearnedForecaster learned_forecaster(const std::string& path, const std::vector<double>& horizons,
                                      const Observation& observation) {
     const Checkpoint checkpoint = read_checkpoint(path);
     const TrainingFacts& facts = checkpoint.facts;
-    if (facts.source_sha256 != observation.source_sha256) {
-        session.tell({"trained_elsewhere", Severity::caution,
-                      fmt::format("this network learned from {}, not from {}: on specimens they "
-                                  "have never seen, networks have lost to holding still "
-                                  "(docs/RESULTS.md)",
-                                  facts.recording, observation.source_name)});
+    Statuses notes;
+    const bool known = std::ranges::any_of(facts.sources, [&](const LearnedSource& s) {
+        return s.source_sha256 == observation.source_sha256;
+    });
+    if (!known) {
+        notes.push_back({"trained_elsewhere", Severity::caution,
+                         fmt::format("this network learned from {}, not from {}: on specimens they "
+                                     "have never seen, networks have lost to holding still "
+                                     "(docs/RESULTS.md)",
+                                     facts.source_names(), observation.source_name)});
     }
     // Whole units around each horizon; what lies between is interpolated.
     std::set<int> units;
@@ -55,14 +60,15 @@ LearnedForecaster learned_forecaster(Session& session, const std::string& path,
     }
     if (units.empty()) units.insert(1);
     if (*units.rbegin() > facts.horizons) {
-        session.tell({"beyond_training", Severity::caution,
-                      fmt::format("this network was trained to look {} units ahead; what it says "
-                                  "of {} units was never checked against anything",
-                                  facts.horizons, *units.rbegin())});
+        notes.push_back(
+            {"beyond_training", Severity::caution,
+             fmt::format("this network was trained to look {} units ahead; what it says "
+                         "of {} units was never checked against anything",
+                         facts.horizons, *units.rbegin())});
     }
     const std::string name = to_string(checkpoint.network->config().kind);
     return {as_forecaster(checkpoint.network, name, {units.begin(), units.end()}),
-            checkpoint.network->config().context};
+            checkpoint.network->config().context, std::move(notes)};
 }
 
 }  // namespace verdigris::cli

@@ -27,13 +27,13 @@ std::vector<Entrant> learned_entrants(const std::vector<std::string>& paths,
                                       const EvaluationProtocol& protocol);
 
 /// A checkpoint as the forecaster of `age`: what it forecasts at `horizons`, and how many frames it
-/// must see. Tells the user if it learned from another recording.
+/// must see. `notes` says if it learned from another recording, or never looked that far.
 struct LearnedForecaster {
     Forecaster forecaster;
     int context = 0;
+    Statuses notes = {};
 };
-LearnedForecaster learned_forecaster(Session& session, const std::string& path,
-                                     const std::vector<double>& horizons,
+LearnedForecaster learned_forecaster(const std::string& path, const std::vector<double>& horizons,
                                      const Observation& observation);
 
 }  // namespace verdigris::cli

@@ -42,7 +42,7 @@ std::vector<Entrant> learned_entrants(const std::vector<std::string>& paths,
     return {};
 }
 
-LearnedForecaster learned_forecaster(Session&, const std::string&, const std::vector<double>&,
+LearnedForecaster learned_forecaster(const std::string&, const std::vector<double>&,
                                      const Observation&) {
     absent();
 }

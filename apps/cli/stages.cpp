@@ -244,7 +244,7 @@ SavedForecast run_forecast(Session& session, const Observation& observation,
     }
     const bool learned = is_checkpoint(arguments.forecaster);
     const LearnedForecaster chosen =
-        learned ? learned_forecaster(session, arguments.forecaster, saved.horizons, observation)
+        learned ? learned_forecaster(arguments.forecaster, saved.horizons, observation)
                 : LearnedForecaster{forecaster_by_name(arguments.forecaster, arguments.options()),
                                     arguments.context};
     const Forecaster& forecaster = chosen.forecaster;
@@ -258,6 +258,8 @@ SavedForecast run_forecast(Session& session, const Observation& observation,
     report(session.progress(), "forecast", 0, 1);
     saved.forecast = forecaster.forecast(saved.context);
     saved.forecast.guards = check_guards(saved.context, saved.forecast, saved.horizons);
+    saved.forecast.guards.insert(saved.forecast.guards.begin(), chosen.notes.begin(),
+                                 chosen.notes.end());
     if (const auto status = interpolated_context(observation, saved.context.length())) {
         saved.forecast.guards.insert(saved.forecast.guards.begin(), *status);
     }

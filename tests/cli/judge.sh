@@ -121,7 +121,7 @@ for command in evaluate characterize drift; do
   [ "$(ls "$scratch/mine")" = thesis.tex ] || fail "$command wrote into a foreign folder"
 done
 for command in evaluate drift; do
-  bad 2 "net\.safetensors is a trained forecaster" $command "${two[@]}" --forecasters net.safetensors
+  bad 2 "net\.safetensors.*a network is judged by .evaluate|no trained forecasters" $command "${two[@]}" --forecasters net.safetensors
   bad 2 "no forecaster 'magic'; choose one of" $command "${two[@]}" --forecasters affinergb,magic
 done
 bad 2 "persistence gains nothing" drift "${two[@]}" --forecasters persistence

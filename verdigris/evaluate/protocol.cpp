@@ -44,6 +44,8 @@ void check_protocol(const EvaluationProtocol& p) {
          fmt::format("the protocol's splits overlap: train_fraction {} and validation_fraction {} "
                      "make more than the whole recording",
                      p.train_fraction, p.validation_fraction));
+    need(!p.single || p.hold_out.empty(),
+         fmt::format("hold_out names '{}', but single holds nothing out", p.hold_out));
     if (p.grid == 0) return;  // the recordings decide how much there is
     const int usable = p.grid - p.trim_lead - p.trim_tail;
     need(usable > p.span(), fmt::format("the protocol's grid of {} samples leaves {} after "

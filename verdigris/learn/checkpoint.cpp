@@ -18,6 +18,15 @@ std::string learned_data_hash(const SampleStore& samples, SampleRange train, Sam
     return hash.hex();
 }
 
+std::string TrainingFacts::source_names() const {
+    std::string names;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        if (i > 0) names += i + 1 == sources.size() ? " and " : ", ";
+        names += sources[i].recording;
+    }
+    return names;
+}
+
 void write_checkpoint(const std::filesystem::path& path, const Network& network,
                       const TrainingFacts& facts) {
     SafetensorsFile file;

@@ -22,12 +22,20 @@ struct EpochRecord {
     double seconds = 0;                 ///< not repeatable, and no part of a checkpoint
 };
 
+/// A recording that a network learned from.
+struct LearnedSource {
+    std::string recording;      ///< its name then
+    std::string source_sha256;  ///< of its bytes
+    std::string data_sha256;    ///< of the samples in both ranges (learned_data_hash)
+    SampleRange train, validation;
+    bool operator==(const LearnedSource&) const = default;
+};
+
 /// How a network came about; all of it is in the checkpoint.
 struct TrainingFacts {
-    std::string recording;      ///< name of the source
-    std::string source_sha256;  ///< of the recording's bytes
-    std::string data_sha256;    ///< of the samples it learned from (learned_data_hash)
-    SampleRange train, validation;
+    std::vector<LearnedSource> sources;
+    /// "a", "a and b", "a, b and c".
+    std::string source_names() const;
     int stride = 10, horizons = 10;
     int epoch = 0;  ///< the one these weights are of, from 1
     int epochs = 0, batch = 0, max_windows = 0, threads = 0;

@@ -31,9 +31,30 @@ void check_fits(const NamedCheckpoint& c, const EvaluationProtocol& protocol) {
 }
 
 std::string described(const NamedCheckpoint& c) {
-    const TrainingFacts& f = c.checkpoint.facts;
-    return fmt::format("{} (learned from {}, samples {} to {})", c.path.string(), f.recording,
-                       f.train.begin, f.train.end - 1);
+    std::vector<std::string> list;
+    for (const LearnedSource& s : c.checkpoint.facts.sources)
+        list.push_back(
+            fmt::format("{}, samples {} to {}", s.recording, s.train.begin, s.train.end - 1));
+    return fmt::format("{} (learned from {})", c.path.string(), fmt::join(list, "; "));
+}
+
+/// Is this what it learned from? Splits first: only then may the samples be read.
+bool is_source(const LearnedSource& learned, const TrainingSource& source, int size) {
+    const Observation& o = *source.observation;
+    return learned.train == source.train && learned.validation == source.validation &&
+           o.width() == size && o.height() == size &&
+           (learned.source_sha256.empty() || learned.source_sha256 == o.source_sha256) &&
+           learned_data_hash(*o.store, source.train, source.validation) == learned.data_sha256;
+}
+
+/// Did it learn from these sources and from nothing else?
+bool learned_from(const Checkpoint& checkpoint, const std::vector<TrainingSource>& sources) {
+    const int size = checkpoint.network->config().size;
+    return std::ranges::all_of(checkpoint.facts.sources, [&](const LearnedSource& learned) {
+        return std::ranges::any_of(sources, [&](const TrainingSource& source) {
+            return is_source(learned, source, size);
+        });
+    });
 }
 
 }  // namespace
@@ -55,24 +76,16 @@ Entrant checkpoint_entrant(std::string name, std::vector<NamedCheckpoint> checkp
     auto shared = std::make_shared<std::vector<NamedCheckpoint>>(std::move(checkpoints));
     entrant.train = [name, shared,
                      horizons = protocol.horizons](const std::vector<TrainingSource>& sources) {
-        for (const TrainingSource& source : sources) {
-            for (const NamedCheckpoint& c : *shared) {
-                const TrainingFacts& facts = c.checkpoint.facts;
-                const int size = c.checkpoint.network->config().size;
-                // Splits first: only then may the samples be read.
-                if (facts.train != source.train || facts.validation != source.validation ||
-                    source.observation->width() != size || source.observation->height() != size ||
-                    (!facts.source_sha256.empty() &&
-                     facts.source_sha256 != source.observation->source_sha256)) {
-                    continue;
-                }
-                if (learned_data_hash(*source.observation->store, source.train,
-                                      source.validation) != facts.data_sha256) {
-                    continue;
-                }
-                return as_forecaster(c.checkpoint.network, name, units_to(horizons));
+        const NamedCheckpoint* best = nullptr;
+        for (const NamedCheckpoint& c : *shared) {
+            if (!learned_from(c.checkpoint, sources)) continue;
+            if (best == nullptr ||
+                c.checkpoint.facts.sources.size() > best->checkpoint.facts.sources.size()) {
+                best = &c;
             }
         }
+        if (best != nullptr)
+            return as_forecaster(best->checkpoint.network, name, units_to(horizons));
         std::vector<std::string> have, want;
         for (const NamedCheckpoint& c : *shared) have.push_back(described(c));
         for (const TrainingSource& s : sources) {
@@ -95,7 +108,9 @@ std::vector<Entrant> checkpoint_entrants(std::vector<NamedCheckpoint> checkpoint
     std::map<std::pair<NetworkKind, std::string>, int> seen;
     for (NamedCheckpoint& c : checkpoints) {
         const NetworkKind kind = c.checkpoint.network->config().kind;
-        const int again = seen[{kind, c.checkpoint.facts.data_sha256}]++;
+        std::string learned;
+        for (const LearnedSource& s : c.checkpoint.facts.sources) learned += s.data_sha256;
+        const int again = seen[{kind, learned}]++;
         groups[{kind, again}].push_back(std::move(c));
     }
     std::vector<Entrant> entrants;

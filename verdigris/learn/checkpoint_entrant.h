@@ -17,11 +17,11 @@ struct NamedCheckpoint {
 };
 
 /// One entrant of one kind of network with a checkpoint per recording it was trained on: for each
-/// held-out recording the one is taken that learned from another. That it did is not believed: the
-/// samples in its splits are read again (which the audit sees) and must have the hash it carries.
-/// `train` of the entrant throws Error{refused} where no checkpoint learned from a source as this
-/// protocol splits it, naming the checkpoints and the recordings.
-/// Throws Error{usage}: no checkpoint, checkpoints of different networks or contexts.
+/// held-out recording the one is taken that learned from others only, the most of them. That it did
+/// is not believed: the samples in its splits are read again (which the audit sees) and must have
+/// the hash it carries. `train` of the entrant throws Error{refused} where no checkpoint learned
+/// from a source as this protocol splits it, naming the checkpoints and the recordings. Throws
+/// Error{usage}: no checkpoint, checkpoints of different networks or contexts.
 Entrant checkpoint_entrant(std::string name, std::vector<NamedCheckpoint> checkpoints,
                            const EvaluationProtocol& protocol);
 

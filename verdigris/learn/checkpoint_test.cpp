@@ -20,10 +20,8 @@ using namespace verdigris::testing;
 
 TrainingFacts some_facts() {
     TrainingFacts f;
-    f.recording = "plate \"A\"";
-    f.data_sha256 = std::string(64, 'a');
-    f.train = {17, 509};
-    f.validation = {649, 895};
+    f.sources = {{"plate \"A\"", "", std::string(64, 'a'), {17, 509}, {649, 895}},
+                 {"b", std::string(64, 'b'), std::string(64, 'c'), {0, 100}, {200, 300}}};
     f.epoch = 7, f.epochs = 12, f.batch = 4, f.threads = 2, f.device = "cpu";
     f.seed = 0xffffffffffffffffu;
     f.learning_rate = 2e-4, f.weight_decay = 1e-2, f.clip_norm = 1;
@@ -87,9 +85,18 @@ TEST(Checkpoint, OfAnotherNetworkIsRefused) {
     EXPECT_NE(refused([](SafetensorsFile& f) { f.metadata.clear(); }).find("no checkpoint"),
               std::string::npos);
     EXPECT_NE(refused([](SafetensorsFile& f) {
-                  f.metadata["training"] = R"({"recording":5})";
+                  f.metadata["training"] = R"({"sources":[{"recording":5}]})";
               }).find("recording"),
               std::string::npos);
+}
+
+TEST(Checkpoint, NamesWhatItLearnedFrom) {
+    TrainingFacts f;
+    f.sources.resize(3);
+    f.sources[0].recording = "a", f.sources[1].recording = "b", f.sources[2].recording = "c";
+    EXPECT_EQ(f.source_names(), "a, b and c");
+    f.sources.resize(1);
+    EXPECT_EQ(f.source_names(), "a");
 }
 
 TEST(Checkpoint, WithDamagedTensorsIsRefused) {

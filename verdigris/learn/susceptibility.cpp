@@ -138,7 +138,9 @@ SusceptibilityMaps maps_of(PatinaNet& network, torch::Device device, const Train
     const WindowPlan plan = plan_windows(protocol, o.store->count(), o.source_name);
     SusceptibilityMaps maps;
     maps.recording = o.source_name;
-    maps.source = !facts.source_sha256.empty() && facts.source_sha256 == o.source_sha256;
+    maps.source = std::ranges::any_of(facts.sources, [&](const LearnedSource& s) {
+        return !s.source_sha256.empty() && s.source_sha256 == o.source_sha256;
+    });
     maps.specimen = o.specimen.clone();
     const int contexts = (protocol.context - 1) * protocol.stride;  // all that a map looks at
     for (int start = plan.usable.begin; start + contexts < plan.usable.end; start += plan.span)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "verdigris/error.h"
+#include "verdigris/learn/susceptibility_report.h"
 #include "verdigris/learn/testing.h"
 
 namespace verdigris {
@@ -28,7 +29,7 @@ TEST(Pearson, KnownAnswers) {
 Checkpoint fresh(NetworkKind kind, const Observation& source) {
     Checkpoint c;
     c.network = std::make_shared<Network>(NetworkConfig{kind, 3, 32}, 2);
-    c.facts.source_sha256 = source.source_sha256;
+    c.facts.sources = {{source.source_name, source.source_sha256, "", {}, {}}};
     return c;
 }
 
@@ -58,6 +59,33 @@ TEST(Susceptibility, CountsPairsAndTellsTheSource) {
     }
     // The same picture all the time gives the same map all the time.
     EXPECT_GT(s.within[0].windows.all.mean, 0.5);
+}
+
+// Sentences say "less" only where the errors let them.
+TEST(SusceptibilityReport, SaysWhatTheNumbersSay) {
+    SusceptibilityAnalysis a;
+    a.recordings.resize(2);
+    a.recordings[0].source = true;
+    for (auto& r : a.recordings) r.mean = Image<float>(4, 4), r.change = Image<float>(4, 4);
+    const auto r = [](double mean, double error) {
+        return AreaCorrelations{{mean, error, 15}, {mean, error, 15}};
+    };
+    a.within = {{"a", r(0.9, 0.02), r(0.7, 0.05)}, {"b", r(0.8, 0.03), r(0.1, 0.05)}};
+    a.cross = {{"a", "b", r(0.2, 0.05)}};
+    std::vector<std::string> said = susceptibility_sentences(a);
+    ASSERT_EQ(said.size(), 5u);
+    EXPECT_NE(said[2].find("less than within either"), std::string::npos) << said[2];
+    EXPECT_NE(said[3].find("learned from"), std::string::npos);
+    EXPECT_NE(said[4].find("never seen"), std::string::npos);
+    a.cross = {{"a", "b", r(0.78, 0.05)}};
+    said = susceptibility_sentences(a);
+    EXPECT_NE(said[2].find("less than within one of them"), std::string::npos) << said[2];
+    a.cross = {{"a", "b", r(0.2, std::nan(""))}};
+    EXPECT_NE(susceptibility_sentences(a)[2].find("do not tell"), std::string::npos);
+    Checkpoint c;
+    c.facts.sources.resize(1);
+    check_report(susceptibility_report(c, a));
+    EXPECT_EQ(susceptibility_sheet(a).height(), 2 * (12 + 6) + 6);
 }
 
 TEST(Susceptibility, RefusesOtherNetworksAndSizes) {

@@ -102,11 +102,15 @@ std::map<std::string, std::string> metadata_of(const NetworkConfig& config,
                                                const TrainingFacts& f) {
     const Json network = {
         {"kind", to_string(config.kind)}, {"context", config.context}, {"size", config.size}};
-    const Json training = {{"recording", f.recording},
-                           {"source_sha256", f.source_sha256},
-                           {"data_sha256", f.data_sha256},
-                           {"train", {f.train.begin, f.train.end}},
-                           {"validation", {f.validation.begin, f.validation.end}},
+    Json sources = Json::array();
+    for (const LearnedSource& s : f.sources) {
+        sources.push_back({{"recording", s.recording},
+                           {"source_sha256", s.source_sha256},
+                           {"data_sha256", s.data_sha256},
+                           {"train", {s.train.begin, s.train.end}},
+                           {"validation", {s.validation.begin, s.validation.end}}});
+    }
+    const Json training = {{"sources", std::move(sources)},
                            {"stride", f.stride},
                            {"horizons", f.horizons},
                            {"epoch", f.epoch},
@@ -155,11 +159,13 @@ TrainingFacts facts_of(const std::map<std::string, std::string>& metadata,
     const auto get = [&]<class T>(const char* key, T& value) {
         value = value_of<T>(json, key, where);
     };
-    get("recording", f.recording);
-    get("source_sha256", f.source_sha256);
-    get("data_sha256", f.data_sha256);
-    f.train = range_of(json, "train", where);
-    f.validation = range_of(json, "validation", where);
+    for (const Json& one : value_of<std::vector<Json>>(json, "sources", where)) {
+        f.sources.push_back({value_of<std::string>(one, "recording", where),
+                             value_of<std::string>(one, "source_sha256", where),
+                             value_of<std::string>(one, "data_sha256", where),
+                             range_of(one, "train", where), range_of(one, "validation", where)});
+    }
+    if (f.sources.empty()) bad(where, "does not say what its network learned from");
     get("stride", f.stride);
     get("horizons", f.horizons);
     get("epoch", f.epoch);

@@ -67,19 +67,17 @@ Horizons horizons_of_step(NetworkKind kind, int horizons, std::uint64_t seed, st
 
 class Trainer {
   public:
-    Trainer(const EvaluationProtocol& protocol, const TrainingSource& source,
+    Trainer(const EvaluationProtocol& protocol, const std::vector<TrainingSource>& sources,
             const TrainOptions& options, const fs::path& folder, const Progress& progress)
         : protocol_(protocol),
-          source_(source),
+          sources_(sources),
           options_(options),
           folder_(folder),
           progress_(progress),
           threads_(options.threads > 0 ? options.threads
                                        : int(std::max(1u, std::thread::hardware_concurrency()))),
-          set_(protocol, *source.observation, source.train, progress),
-          validation_(protocol, source, progress),
-          chosen_(set_.chosen(options.max_windows)),
-          config_{options.kind, protocol.context, set_.size()} {
+          config_{options.kind, protocol.context, sources.front().observation->width()} {
+        for (const TrainingSource& source : sources) add(source);
         set_network_threads(threads_);
         network_ = std::make_shared<Network>(config_, options.seed);
         network_->move_to(options.device);
@@ -97,8 +95,7 @@ class Trainer {
             record.epoch = epoch;
             record.train_loss = train_epoch(epoch);
             record.learning_rate = learning_rate(std::int64_t(epoch) * steps_per_epoch_);
-            const ValidationErrors errors =
-                validation_.errors(*network_, options_.batch, progress_);
+            const ValidationErrors errors = validation_errors();
             record.validation_error = errors.network;
             record.validation_persistence = errors.persistence;
             record.seconds =
@@ -111,15 +108,54 @@ class Trainer {
     }
 
   private:
+    /// A training window: of which source, and which of its windows.
+    struct Window {
+        std::size_t source;
+        int index;
+    };
+
     NetworkModule& module() { return *network_->parts().module; }
 
+    void add(const TrainingSource& source) {
+        sets_.emplace_back(protocol_, *source.observation, source.train, progress_);
+        if (sets_.back().size() != config_.size) {
+            throw Error(
+                ErrorCode::bad_input,
+                fmt::format("has samples of {} x {} where {} has {} x {}", sets_.back().size(),
+                            sets_.back().size(), sources_.front().name, config_.size, config_.size),
+                source.name);
+        }
+        validation_.emplace_back(protocol_, source, progress_);
+        for (const int index : sets_.back().chosen(options_.max_windows))
+            chosen_.push_back({sets_.size() - 1, index});
+    }
+
+    /// Of all sources, each window counting once.
+    ValidationErrors validation_errors() {
+        ValidationErrors all;
+        int windows = 0;
+        for (const ValidationSet& set : validation_) {
+            const ValidationErrors e = set.errors(*network_, options_.batch, progress_);
+            all.network += e.network * set.count();
+            all.persistence += e.persistence * set.count();
+            windows += set.count();
+        }
+        return {all.network / windows, all.persistence / windows};
+    }
+
+    torch::Tensor windows_of(const std::vector<Window>& batch) const {
+        std::vector<torch::Tensor> list;
+        for (const Window& w : batch) list.push_back(sets_[w.source].windows({w.index}));
+        return torch::cat(list);
+    }
+
     void set_facts() {
-        facts_.recording = source_.name;
-        facts_.source_sha256 = source_.observation->source_sha256;
-        facts_.data_sha256 = learned_data_hash(*source_.observation->store, source_.train,
-                                               source_.validation, progress_);
-        facts_.train = source_.train;
-        facts_.validation = source_.validation;
+        for (const TrainingSource& source : sources_) {
+            facts_.sources.push_back({source.name, source.observation->source_sha256,
+                                      learned_data_hash(*source.observation->store, source.train,
+                                                        source.validation, progress_),
+                                      source.train, source.validation});
+        }
         facts_.stride = protocol_.stride;
         facts_.horizons = protocol_.horizons;
         facts_.epochs = options_.epochs;
@@ -140,10 +176,10 @@ class Trainer {
     double persistence_error() {
         const torch::NoGradGuard frozen;
         double sum = 0, windows = 0;
-        for (const int index : chosen_) {
-            const torch::Tensor w = set_.windows({index});
+        for (const Window& window : chosen_) {
+            const torch::Tensor w = windows_of({window});
             const torch::Tensor truth = w.narrow(1, protocol_.context, protocol_.horizons);
-            const torch::Tensor tau = torch::full({1}, set_.tau());
+            const torch::Tensor tau = torch::full({1}, sets_[window.source].tau());
             const WindowErrors e = window_errors_of(w.narrow(1, protocol_.context - 1, 1), truth,
                                                     foreground_mask(w, protocol_.context, tau),
                                                     protocol_.min_foreground);
@@ -154,7 +190,7 @@ class Trainer {
             throw Error(ErrorCode::refused,
                         "nothing changes in the part that would be learned from: too few "
                         "foreground pixels in every window",
-                        source_.name);
+                        facts_.source_names());
         }
         return sum / windows;
     }
@@ -197,7 +233,7 @@ class Trainer {
         for (int i = 0; i < steps_per_epoch_; ++i) {
             const std::int64_t step = std::int64_t(epoch - 1) * steps_per_epoch_ + i;
             report(progress_, "train", step, std::int64_t(options_.epochs) * steps_per_epoch_);
-            std::vector<int> batch;
+            std::vector<Window> batch;
             for (int j = i * options_.batch;
                  j < std::min((i + 1) * options_.batch, int(order.size())); ++j) {
                 batch.push_back(chosen_[std::size_t(order[std::size_t(j)])]);
@@ -208,15 +244,15 @@ class Trainer {
         return sum / steps_per_epoch_;
     }
 
-    double train_step(const std::vector<int>& batch, int epoch, std::int64_t step) {
+    double train_step(const std::vector<Window>& batch, int epoch, std::int64_t step) {
         const int n = protocol_.context;
-        torch::Tensor windows = set_.windows(batch).to(network_->parts().device);
+        torch::Tensor windows = windows_of(batch).to(network_->parts().device);
         std::vector<WindowAugmentation> draws;
         std::vector<float> tau;
         for (std::size_t i = 0; i < batch.size(); ++i) {
             draws.push_back(options_.augment ? draw_augmentation(options_.seed, step, int(i))
                                              : WindowAugmentation());
-            tau.push_back(float(set_.tau() * draws.back().gain));
+            tau.push_back(float(sets_[batch[i].source].tau() * draws.back().gain));
         }
         if (options_.augment) windows = augmented(windows, draws);
         const torch::Device device = network_->parts().device;
@@ -263,15 +299,15 @@ class Trainer {
     }
 
     const EvaluationProtocol& protocol_;
-    const TrainingSource& source_;
+    const std::vector<TrainingSource>& sources_;
     const TrainOptions& options_;
     const fs::path& folder_;
     const Progress& progress_;
     int threads_;
-    TrainingSet set_;
-    ValidationSet validation_;
-    std::vector<int> chosen_;
     NetworkConfig config_;
+    std::vector<TrainingSet> sets_;
+    std::vector<ValidationSet> validation_;
+    std::vector<Window> chosen_;
     std::shared_ptr<Network> network_;
     std::unique_ptr<torch::optim::AdamW> optimizer_;
     int steps_per_epoch_ = 0;
@@ -283,12 +319,14 @@ class Trainer {
 
 }  // namespace
 
-TrainedNetwork train_network(const EvaluationProtocol& protocol, const TrainingSource& source,
+TrainedNetwork train_network(const EvaluationProtocol& protocol,
+                             const std::vector<TrainingSource>& sources,
                              const TrainOptions& options, const fs::path& folder,
                              const Progress& progress, const EpochDone& epoch_done) {
     check_options(options);
     check_protocol(protocol);
-    Trainer trainer(protocol, source, options, folder, progress);
+    if (sources.empty()) throw Error(ErrorCode::usage, "there is no recording to learn from");
+    Trainer trainer(protocol, sources, options, folder, progress);
     return trainer.run(epoch_done);
 }
 

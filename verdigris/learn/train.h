@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Training on one recording, as the paper states it: windows of its first half, selection on a
-// later stretch of the same recording, nothing else seen.
+// Training as the paper states it: windows of a recording's first half, selection on a later
+// stretch of the same recording, nothing else seen. More than one recording may be learned from.
 #pragma once
 
 #include <functional>
@@ -42,14 +42,15 @@ struct TrainedNetwork {
     std::vector<EpochRecord> epochs;
 };
 
-/// Trains on `source` and writes best.safetensors, last.safetensors and metrics.jsonl into
-/// `folder` (made if absent) after every epoch, each whole or not at all. Context, horizons, stride
-/// and foreground are the protocol's; frames must be square, a multiple of 8.
+/// Trains on `sources` (windows of all of them, mixed) and writes best.safetensors,
+/// last.safetensors and metrics.jsonl into `folder` (made if absent) after every epoch, each whole
+/// or not at all. Context, horizons, stride and foreground are the protocol's; frames must be
+/// square, a multiple of 8, and of one size.
 ///
 /// Loss, per batch: (MSE over the foreground + 0.1 MSE over all pixels) / m, m the mean foreground
 /// MSE of persistence over the training windows; it starts near 1. Windows whose foreground is
 /// under protocol.min_foreground count with their second term only. Selection: the protocol's
-/// foreground MSE over all windows in source.validation.
+/// foreground MSE over all windows in the sources' validation ranges.
 ///
 /// Same seed, same threads, same machine: same weights, whether interrupted and resumed or not.
 /// Memory: the training samples as floats (97 MB at 128 x 128) and 1 to 3 GB of activations.
@@ -57,7 +58,8 @@ struct TrainedNetwork {
 /// Throws Error{usage}: options. Error{bad_input}: the frames' size, too few samples for a window.
 /// Error{refused}: the folder holds a run of other options; nothing changes in the training
 /// windows. Error{failed}: the loss is not a number (what was saved stays), disk full.
-TrainedNetwork train_network(const EvaluationProtocol& protocol, const TrainingSource& source,
+TrainedNetwork train_network(const EvaluationProtocol& protocol,
+                             const std::vector<TrainingSource>& sources,
                              const TrainOptions& options, const std::filesystem::path& folder,
                              const Progress& progress = {}, const EpochDone& epoch_done = {});
 

@@ -70,7 +70,7 @@ TEST_P(Training, OverfitsOneWindow) {
 TEST_P(Training, SameSeedSameBytesAndAResumedRunIsTheWholeRun) {
     const Observation o = changing_recording(16, 80);
     const EvaluationProtocol protocol = small_protocol();
-    const TrainingSource source = source_of(o, protocol);
+    const std::vector<TrainingSource> source{source_of(o, protocol)};
     const ScratchFolder whole, again, broken;
     const TrainOptions options = quick_options(GetParam(), 3);
     const TrainedNetwork first = train_network(protocol, source, options, whole.path());
@@ -111,7 +111,7 @@ TEST(TrainingRun, StartsAtPersistenceAndKeepsTheBestEpoch) {
     TrainOptions options = quick_options(NetworkKind::horizonnet, 4);
     options.max_windows = 0;
     const TrainedNetwork trained =
-        train_network(protocol, source_of(o, protocol), options, folder.path(), {},
+        train_network(protocol, {source_of(o, protocol)}, options, folder.path(), {},
                       [&](const EpochRecord&) { ++called; });
     EXPECT_EQ(called, 4);
     // The first loss is near 1 + a tenth of what the frame changes: the scale is persistence's.
@@ -121,7 +121,7 @@ TEST(TrainingRun, StartsAtPersistenceAndKeepsTheBestEpoch) {
     for (const EpochRecord& e : trained.epochs) best = std::min(best, e.validation_error);
     EXPECT_EQ(trained.facts.validation_error, best);
     EXPECT_NEAR(trained.epochs.back().learning_rate, 0, 1e-12);
-    EXPECT_EQ(trained.facts.recording, "plate");
+    EXPECT_EQ(trained.facts.source_names(), "plate");
     // A line per epoch, each of it JSON.
     std::ifstream lines(folder.path() / kMetricsFile);
     std::string line;
@@ -140,8 +140,8 @@ TEST(TrainingRun, ReadsNothingOutsideOfItsSplits) {
     int run = 0;
     entrant.train = [&](const std::vector<TrainingSource>& sources) {
         const auto path = folder.path() / std::to_string(run++);
-        const TrainedNetwork t = train_network(protocol, sources.front(),
-                                               quick_options(NetworkKind::patinanet, 1), path);
+        const TrainedNetwork t =
+            train_network(protocol, sources, quick_options(NetworkKind::patinanet, 1), path);
         return as_forecaster(t.network, "patinanet", units_to(protocol.horizons));
     };
     std::vector<Observation> observations;
@@ -157,10 +157,29 @@ TEST(TrainingRun, ReadsNothingOutsideOfItsSplits) {
     EXPECT_EQ(run, 2);
 }
 
+TEST(TrainingRun, LearnsFromSeveralRecordings) {
+    const Observation a = changing_recording(16, 80), b = changing_recording(16, 70, "b"),
+                      large = changing_recording(24, 80, "large");
+    const EvaluationProtocol protocol = small_protocol();
+    const ScratchFolder folder;
+    const TrainedNetwork trained =
+        train_network(protocol, {source_of(a, protocol), source_of(b, protocol)},
+                      quick_options(NetworkKind::patinanet, 1), folder / "two");
+    ASSERT_EQ(trained.facts.sources.size(), 2u);
+    EXPECT_EQ(trained.facts.source_names(), "plate and b");
+    EXPECT_NE(trained.facts.sources[0].data_sha256, trained.facts.sources[1].data_sha256);
+    EXPECT_THROW(train_network(protocol, {source_of(a, protocol), source_of(large, protocol)},
+                               quick_options(NetworkKind::patinanet, 1), folder / "sizes"),
+                 Error);
+    EXPECT_THROW(
+        train_network(protocol, {}, quick_options(NetworkKind::patinanet, 1), folder / "none"),
+        Error);
+}
+
 TEST(TrainingRun, RefusesWhatCannotGoOn) {
     const Observation o = changing_recording(16, 80);
     const EvaluationProtocol protocol = small_protocol();
-    const TrainingSource source = source_of(o, protocol);
+    const std::vector<TrainingSource> source{source_of(o, protocol)};
     const ScratchFolder folder;
     TrainOptions options = quick_options(NetworkKind::convlstm, 1);
     train_network(protocol, source, options, folder.path());
@@ -190,7 +209,7 @@ TEST(TrainingRun, StopsWhenTheLossIsNoNumber) {
         return c;
     });
     try {
-        train_network(protocol, source_of(wild, protocol), options, folder.path());
+        train_network(protocol, {source_of(wild, protocol)}, options, folder.path());
         FAIL() << "went on";
     } catch (const Error& e) {
         EXPECT_EQ(e.code(), ErrorCode::failed) << e.what();
