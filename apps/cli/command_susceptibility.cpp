@@ -27,7 +27,8 @@ struct Arguments {
 void run(Session& session, const Arguments& a) {
     check_results_folder(a.judge.output, kSusceptibilityFile, session.force);
     std::error_code error;
-    const fs::path path = fs::is_directory(a.run, error) ? fs::path(a.run) / kBestFile : a.run;
+    const fs::path given = a.run;
+    const fs::path path = fs::is_directory(given, error) ? given / kBestFile : given;
     const Checkpoint checkpoint = read_checkpoint(path);
     const std::vector<Observation> observations = observe_all(session, a.judge);
     EvaluationProtocol protocol = protocol_for(session, a.judge, observations);

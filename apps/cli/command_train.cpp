@@ -37,7 +37,7 @@ Figure loss_figure(const TrainedNetwork& trained) {
     loss.y = {"loss (1: persistence, about)", AxisScale::log10};
     validation.title = "validation, same recording";
     validation.y = {"foreground MSE", AxisScale::log10};
-    FigureSeries a{"training windows"}, b{"network"};
+    FigureSeries a{"training windows", SeriesKind::line, {}}, b{"network", SeriesKind::line, {}};
     for (const EpochRecord& e : trained.epochs) {
         a.points.push_back({double(e.epoch), e.train_loss});
         b.points.push_back({double(e.epoch), e.validation_error});
@@ -122,7 +122,7 @@ void run(Session& session, Arguments a) {
     session.say(
         fmt::format("Judge it  verdigris evaluate {} OTHER -o RESULTS --forecasters "
                     "{},affinergb --hold-out OTHER",
-                    a.source, (folder / kBestFile).string()));
+                    fmt::join(a.sources, " "), (folder / kBestFile).string()));
     Json epochs = Json::array();
     for (const EpochRecord& e : trained.epochs) epochs.push_back(json_of(e));
     session.result({{"model", a.model},
