@@ -137,7 +137,7 @@ std::vector<Sums> running_sums(const WindowRatios& r) {
     const int first = r.starts.front();
     std::vector<Sums> sums(std::size_t(r.starts.back()) - std::size_t(first) + 2);
     for (std::size_t i = 0; i < r.starts.size(); ++i) {
-        sums[std::size_t(r.starts[i] - first + 1)] = {r.over[i], r.under[i], 1};
+        sums[std::size_t(r.starts[i] - first) + 1] = {r.over[i], r.under[i], 1};
     }
     for (std::size_t i = 1; i < sums.size(); ++i) sums[i] += sums[i - 1];
     return sums;

@@ -26,18 +26,21 @@ struct Grid {
     std::vector<double> values;
     explicit Grid(int side_)
         : side(side_), values(std::size_t(side_) * std::size_t(side_), kNothing) {}
-    double& at(int x, int y) { return values[std::size_t(y * side + x)]; }
+    std::size_t index(int x, int y) const {
+        return std::size_t(y) * std::size_t(side) + std::size_t(x);
+    }
+    double& at(int x, int y) { return values[index(x, y)]; }
     double at(int x, int y) const {
-        return x < 0 || y < 0 || x >= side || y >= side ? kNothing
-                                                        : values[std::size_t(y * side + x)];
+        return x < 0 || y < 0 || x >= side || y >= side ? kNothing : values[index(x, y)];
     }
 };
 
 Grid cells_of(const SurfacePrint& print, int moment) {
     Grid grid(kSide);
-    for (int i = 0; i < kSide * kSide; ++i) {
-        const int code = print.cells[std::size_t(moment * kSide * kSide + i)];
-        if (code != SurfacePrint::kOutside) grid.values[std::size_t(i)] = code;
+    const std::size_t first = grid.values.size() * std::size_t(moment);
+    for (std::size_t i = 0; i < grid.values.size(); ++i) {
+        const int code = print.cells[first + i];
+        if (code != SurfacePrint::kOutside) grid.values[i] = code;
     }
     return grid;
 }
@@ -116,7 +119,8 @@ SurfacePrint surface_print(const Observation& observation, SampleRange usable) {
         std::vector<double> sum(kSide * kSide), inside(kSide * kSide), all(kSide * kSide);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
-                const auto cell = std::size_t(y * kSide / height * kSide + x * kSide / width);
+                const int row = y * kSide / height, column = x * kSide / width;
+                const auto cell = std::size_t(row) * kSide + std::size_t(column);
                 ++all[cell];
                 if (!specimen.empty() && specimen(x, y) == 0) continue;
                 ++inside[cell];

@@ -267,8 +267,8 @@ std::string panel(const FigurePanel& given, const PanelLayout& placed, const Fig
                   const Sheet& sheet, std::size_t index, Blocks& blocks) {
     const double top = 1 - sheet.legend / sheet.height;
     const double height = top / sheet.rows, width = 1.0 / sheet.columns;
-    const auto row = double(index / std::size_t(sheet.columns));
-    const auto column = double(index % std::size_t(sheet.columns));
+    const std::size_t columns = std::size_t(sheet.columns), whole_rows = index / columns;
+    const auto row = double(whole_rows), column = double(index % columns);
     std::string out = fmt::format("set origin {:.6f},{:.6f}\nset size {:.6f},{:.6f}\n",
                                   column * width, top - (row + 1) * height, width, height);
     out += "set title " + gnuplot_quoted(placed.title) + "\n";

@@ -137,7 +137,8 @@ TEST(DriftReport, TablesFiguresAndJsonHoldTheNumbers) {
               (std::vector<std::string>{"none", "gain", "offset", "both"}));
     // Gains follow from the windows.
     double error = 0, still = 0;
-    for (const TableRow& row : drift_windows(list).groups[0].rows) {
+    const Table windows = drift_windows(list);
+    for (const TableRow& row : windows.groups[0].rows) {
         if (row[2].words() != "offset") continue;
         error += row[4].value(), still += row[5].value();
     }

@@ -167,8 +167,9 @@ EvaluationProtocol read_protocol(const std::filesystem::path& path) {
     const toml::table file = parsed(path);
     const std::vector<Field> known = fields(protocol);
     for (const auto& [key, node] : file) {
-        const auto field = std::find_if(known.begin(), known.end(),
-                                        [&](const Field& f) { return f.key == key.str(); });
+        const std::string_view name = key.str();
+        const auto field =
+            std::find_if(known.begin(), known.end(), [&](const Field& f) { return f.key == name; });
         if (field == known.end()) {
             std::vector<std::string_view> names;
             for (const Field& f : known) names.push_back(f.key);
