@@ -86,9 +86,7 @@ void run(Session& session, Arguments a) {
         }
         sources.push_back({o.source_name, &o, plan.splits->train, plan.splits->validation});
     }
-    const NetworkConfig config{a.options.kind, protocol.context, observations.front().width()};
-    session.say(fmt::format("training  {}, {:.2f}M parameters", a.model,
-                            double(Network(config).parameter_count()) / 1e6));
+    session.say(fmt::format("training  {}", a.model));
     for (const TrainingSource& s : sources) {
         session.say(fmt::format(
             "          on samples {} to {} of {}; the epoch is chosen on {} "

@@ -39,21 +39,18 @@ std::string described(const NamedCheckpoint& c) {
 }
 
 /// Is this what it learned from? Splits first: only then may the samples be read.
-bool is_source(const LearnedSource& learned, const TrainingSource& source, int size) {
+bool is_source(const LearnedSource& learned, const TrainingSource& source) {
     const Observation& o = *source.observation;
     return learned.train == source.train && learned.validation == source.validation &&
-           o.width() == size && o.height() == size &&
            (learned.source_sha256.empty() || learned.source_sha256 == o.source_sha256) &&
            learned_data_hash(*o.store, source.train, source.validation) == learned.data_sha256;
 }
 
 /// Did it learn from these sources and from nothing else?
 bool learned_from(const Checkpoint& checkpoint, const std::vector<TrainingSource>& sources) {
-    const int size = checkpoint.network->config().size;
     return std::ranges::all_of(checkpoint.facts.sources, [&](const LearnedSource& learned) {
-        return std::ranges::any_of(sources, [&](const TrainingSource& source) {
-            return is_source(learned, source, size);
-        });
+        return std::ranges::any_of(
+            sources, [&](const TrainingSource& source) { return is_source(learned, source); });
     });
 }
 

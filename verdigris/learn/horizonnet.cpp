@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The paper's direct network: the context is encoded once, the horizon asked for enters as a
-// sinusoidal embedding that scales and shifts features [Perez2018], and a U-Net decoder answers with the
-// change of the last frame. Sizes are ours; the paper gives their sum, 0.92 M.
+// sinusoidal embedding that scales and shifts features [Perez2018], and a U-Net decoder answers
+// with the change of the last frame. Sizes are ours; the paper gives their sum, 0.92 M.
 #include <torch/nn/functional/activation.h>
 
 #include <cmath>

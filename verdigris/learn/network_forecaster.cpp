@@ -30,30 +30,40 @@ Forecast forecast_with(const Network& network, const std::string& name,
     forecast.stack.base = last.clone();
     forecast.stack.horizons.assign(units.begin(), units.end());
 
-    Network::Parts& parts = network.parts();
-    const std::lock_guard lock(parts.one_at_a_time);
-    const torch::InferenceMode inference;
-    const bool native = last.same_size(config.size, config.size);
-    const torch::Tensor whole = torch::stack(frames);
-    const torch::Tensor seen = resized(whole, config.size, config.size).to(parts.device);
-    torch::Tensor forecasts = parts.module->predict(seen.unsqueeze(0), units)[0].to(torch::kCPU);
-    if (!native) {
-        const torch::Tensor change = forecasts - seen.narrow(0, context.length() - 1, 1).cpu();
-        forecasts =
-            whole.narrow(0, context.length() - 1, 1) + resized(change, last.width(), last.height());
-    }
+    const torch::Tensor forecasts =
+        forecast_frames(network, torch::stack(frames).unsqueeze(0), units)[0];
     for (std::size_t k = 0; k < units.size(); ++k)
         forecast.stack.frames.push_back(image_of(forecasts[std::int64_t(k)]));
     forecast.explanation = fmt::format(
         "{}, a trained network ({} parameters), continues what it was trained on{}", name,
         network.parameter_count(),
-        native ? ""
-               : fmt::format("; it sees {} x {} pixels, and the change it forecasts is enlarged",
-                             config.size, config.size));
+        last.same_size(config.size, config.size)
+            ? ""
+            : fmt::format("; it sees {} x {} pixels, and the change it forecasts is enlarged",
+                          config.size, config.size));
     return forecast;
 }
 
 }  // namespace
+
+torch::Tensor forecast_frames(const Network& network, const torch::Tensor& contexts,
+                              const std::vector<int>& units) {
+    Network::Parts& parts = network.parts();
+    const std::lock_guard lock(parts.one_at_a_time);
+    const torch::NoGradGuard frozen;
+    const int size = parts.config.size;
+    const std::int64_t n = contexts.size(1), height = contexts.size(3), width = contexts.size(4);
+    if (height == size && width == size)
+        return parts.module->predict(contexts.to(parts.device), units).to(torch::kCPU);
+    const torch::Tensor seen = resized(contexts.flatten(0, 1), size, size)
+                                   .view({contexts.size(0), n, 3, size, size})
+                                   .to(parts.device);
+    const torch::Tensor change =
+        (parts.module->predict(seen, units) - seen.narrow(1, n - 1, 1)).to(torch::kCPU);
+    return contexts.narrow(1, n - 1, 1) +
+           resized(change.flatten(0, 1), int(width), int(height))
+               .view({contexts.size(0), change.size(1), 3, height, width});
+}
 
 Forecaster as_forecaster(std::shared_ptr<const Network> network, std::string name,
                          std::vector<int> horizons) {

@@ -21,4 +21,10 @@ struct Network::Parts {
 
 torch::Device torch_device(Device device);
 
+/// contexts [B, n, 3, h, w] of any size give [B, units, 3, h, w], on the CPU. The network sees them
+/// reduced to its own square; what it forecasts to change is enlarged and added to the last frame.
+/// One caller at a time; no gradients.
+torch::Tensor forecast_frames(const Network& network, const torch::Tensor& contexts,
+                              const std::vector<int>& units);
+
 }  // namespace verdigris

@@ -38,16 +38,22 @@ Image<SrgbF> median_of_samples(const SampleStore& store, int begin, int end) {
     return median;
 }
 
-Image<float> change_of(const SampleStore& store, SampleRange usable) {
+Image<float> change_of(const SampleStore& store, SampleRange usable, int size) {
     const int ends = std::min(kEndSamples, usable.count() / 2);
     const Image<SrgbF> first = median_of_samples(store, usable.begin, usable.begin + ends);
     const Image<SrgbF> last = median_of_samples(store, usable.end - ends, usable.end);
-    auto change = Image<float>::for_overwrite(first.width(), first.height());
-    for (std::size_t i = 0; i < change.pixel_count(); ++i) {
-        const SrgbF &a = first.pixels()[i], &b = last.pixels()[i];
-        change.pixels()[i] = (std::abs(b.r - a.r) + std::abs(b.g - a.g) + std::abs(b.b - a.b)) / 3;
-    }
-    return change;
+    const torch::Tensor change = (tensor_of(last) - tensor_of(first)).abs().mean(0);
+    return field_of(resized(change.unsqueeze(0).unsqueeze(0), size, size)[0][0]);
+}
+
+/// Nearest pixel: a mask has nothing in between.
+Mask stretched(const Mask& mask, int size) {
+    if (mask.empty() || mask.same_size(size, size)) return mask.clone();
+    Mask out(size, size);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            out(x, y) = mask(x * mask.width() / size, y * mask.height() / size);
+    return out;
 }
 
 Mask both(const Mask& a, const Mask& b) {
@@ -129,19 +135,13 @@ Correlation change_correlation(const SusceptibilityMaps& maps, const Mask& where
 
 SusceptibilityMaps maps_of(PatinaNet& network, torch::Device device, const TrainingFacts& facts,
                            const EvaluationProtocol& protocol, const Observation& o, int size) {
-    if (o.width() != size || o.height() != size) {
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("has samples of {} x {}; this network looks at {} x {}", o.width(),
-                                o.height(), size, size),
-                    o.source_name);
-    }
     const WindowPlan plan = plan_windows(protocol, o.store->count(), o.source_name);
     SusceptibilityMaps maps;
     maps.recording = o.source_name;
     maps.source = std::ranges::any_of(facts.sources, [&](const LearnedSource& s) {
         return !s.source_sha256.empty() && s.source_sha256 == o.source_sha256;
     });
-    maps.specimen = o.specimen.clone();
+    maps.specimen = stretched(o.specimen, size);
     const int contexts = (protocol.context - 1) * protocol.stride;  // all that a map looks at
     for (int start = plan.usable.begin; start + contexts < plan.usable.end; start += plan.span)
         maps.starts.push_back(start);
@@ -158,11 +158,12 @@ SusceptibilityMaps maps_of(PatinaNet& network, torch::Device device, const Train
         std::vector<torch::Tensor> frames;
         for (int i = 0; i < protocol.context; ++i)
             frames.push_back(tensor_of(o.store->image(start + i * protocol.stride)));
-        const auto encoded = network.encode(torch::stack(frames).unsqueeze(0).to(device));
+        const auto encoded =
+            network.encode(resized(torch::stack(frames), size, size).unsqueeze(0).to(device));
         maps.rho.push_back(field_of(encoded.susceptibility[0][0]));
     }
     maps.mean = mean_of(maps.rho);
-    maps.change = change_of(*o.store, plan.usable);
+    maps.change = change_of(*o.store, plan.usable, size);
     return maps;
 }
 

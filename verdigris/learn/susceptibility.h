@@ -56,9 +56,9 @@ struct SusceptibilityAnalysis {
 };
 
 /// Of windows one span apart (6 in the paper's 950 samples; the last may be cut by the end).
-/// Recordings must have the network's size. Throws Error{usage} for a network without a
-/// susceptibility; Error{bad_input} naming a recording of another size, or too short for two
-/// windows. Cost: one encoding per window.
+/// All maps are of the network's size, to which recordings are stretched. Throws Error{usage} for a
+/// network without a susceptibility; Error{bad_input} naming a recording too short for two windows.
+/// Cost: one encoding per window.
 SusceptibilityAnalysis analyze_susceptibility(const Checkpoint& checkpoint,
                                               const EvaluationProtocol& protocol,
                                               std::span<const Observation> observations,

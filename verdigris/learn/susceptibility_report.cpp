@@ -154,7 +154,7 @@ Table susceptibility_change_table(const SusceptibilityAnalysis& analysis) {
 
 Figure susceptibility_figure(const SusceptibilityAnalysis& analysis) {
     Figure figure;
-    figure.id = "susceptibility";
+    figure.id = "transfer";
     figure.title = "Does the susceptibility transfer?";
     figure.caption =
         "Pearson's r; bars are one jackknife standard error. Left: maps of two "

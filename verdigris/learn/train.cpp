@@ -76,7 +76,9 @@ class Trainer {
           progress_(progress),
           threads_(options.threads > 0 ? options.threads
                                        : int(std::max(1u, std::thread::hardware_concurrency()))),
-          config_{options.kind, protocol.context, sources.front().observation->width()} {
+          config_{options.kind, protocol.context,
+                  learned_size(sources.front().observation->width(),
+                               sources.front().observation->height())} {
         for (const TrainingSource& source : sources) add(source);
         set_network_threads(threads_);
         network_ = std::make_shared<Network>(config_, options.seed);

@@ -55,7 +55,8 @@ struct TrainedNetwork {
 /// Same seed, same threads, same machine: same weights, whether interrupted and resumed or not.
 /// Memory: the training samples as floats (97 MB at 128 x 128) and 1 to 3 GB of activations.
 /// Progress stages: "load", "train" (steps of all epochs), "validate".
-/// Throws Error{usage}: options. Error{bad_input}: the frames' size, too few samples for a window.
+/// Throws Error{usage}: options. Error{bad_input}: sources of different sizes, too few
+/// samples for a window.
 /// Error{refused}: the folder holds a run of other options; nothing changes in the training
 /// windows. Error{failed}: the loss is not a number (what was saved stays), disk full.
 TrainedNetwork train_network(const EvaluationProtocol& protocol,

@@ -23,26 +23,24 @@ TrainingSet::TrainingSet(const EvaluationProtocol& protocol, const Observation& 
       frames_(protocol.context + protocol.horizons),
       count_(windows_inside(range, protocol.span())),
       tau_(foreground_threshold(protocol, observation.noise.sigma)) {
-    const int width = observation.width(), height = observation.height();
-    if (width != height || width % 8 != 0) {
-        throw Error(ErrorCode::bad_input,
-                    fmt::format("a network learns from square samples whose side is a multiple of "
-                                "8, not from {} x {} (choose with --size)",
-                                width, height),
-                    observation.source_name);
-    }
+    const int size = learned_size(observation.width(), observation.height());
     if (count_ < 1) {
         throw Error(ErrorCode::bad_input,
                     fmt::format("{} samples leave no window of {} to learn from", range.count(),
                                 protocol.span() + 1),
                     observation.source_name);
     }
-    samples_ = torch::empty({range.count(), 3, height, width});
+    samples_ = torch::empty({range.count(), 3, size, size});
     for (int i = 0; i < range.count(); ++i) {
         if (i % 16 == 0) report(progress, "load", i, range.count());
-        samples_[i].copy_(tensor_of(observation.store->image(range.begin + i)));
+        const torch::Tensor sample = tensor_of(observation.store->image(range.begin + i));
+        samples_[i].copy_(resized(sample.unsqueeze(0), size, size)[0]);
     }
     report(progress, "load", range.count(), range.count());
+}
+
+int learned_size(int width, int height) {
+    return (std::max(width, height) + 7) / 8 * 8;
 }
 
 std::vector<int> TrainingSet::chosen(int most) const {

@@ -15,8 +15,8 @@ namespace verdigris {
 
 class TrainingSet {
   public:
-    /// The samples of `range` as floats, and windows that lie inside it. Throws Error{bad_input}
-    /// if it leaves none, or the samples are not square and a multiple of 8.
+    /// The samples of `range` as floats, stretched to a square of learned_size(), and windows that
+    /// lie inside it. Throws Error{bad_input} if it leaves none.
     TrainingSet(const EvaluationProtocol& protocol, const Observation& observation,
                 SampleRange range, const Progress& progress);
 
@@ -34,6 +34,10 @@ class TrainingSet {
     double tau_;
     torch::Tensor samples_;
 };
+
+/// The side of the square in which a network sees samples of this size: the longer side, up to the
+/// next multiple of 8.
+int learned_size(int width, int height);
 
 /// Where a window changes, by the protocol's union rule: [B, 1, 1, H, W], 0 or 1. windows
 /// [B, n + K, 3, H, W]; tau [B].

@@ -74,9 +74,21 @@ TEST(TrainingSet, AWindowWithoutForegroundCountsWithAllItsPixelsOnly) {
 }
 
 TEST(TrainingSet, RefusesWhatItCannotLearnFrom) {
-    const Observation o = changing_recording(16, 60), odd = changing_recording(20, 60);
+    const Observation o = changing_recording(16, 60);
     EXPECT_THROW(TrainingSet(small_protocol(), o, {0, 10}, {}), Error);
-    EXPECT_THROW(TrainingSet(small_protocol(), odd, {0, 40}, {}), Error);
+}
+
+TEST(TrainingSet, StretchesWhatIsNoSquare) {
+    EXPECT_EQ(learned_size(111, 128), 128);
+    EXPECT_EQ(learned_size(20, 20), 24);
+    const Observation flat = observed("flat", 28, 14, 60, [](int x, int, int t) {
+        return SrgbF{0.01f * float(x), 0.5f, 0.001f * float(t)};
+    });
+    const TrainingSet set(small_protocol(), flat, {0, 40}, {});
+    EXPECT_EQ(set.size(), 32);
+    const torch::Tensor first = set.windows({0})[0][0];
+    EXPECT_NEAR(first[0][16][16].item<float>(), 0.01 * (16.5 * 28 / 32 - 0.5), 1e-5);
+    EXPECT_NEAR(first[1].max().item<float>(), 0.5, 1e-6);
 }
 
 }  // namespace

@@ -54,22 +54,19 @@ const Image<SrgbF>& ValidationSet::frame(int start, int i) const {
 
 ValidationErrors ValidationSet::errors(const Network& network, int batch,
                                        const Progress& progress) const {
-    Network::Parts& parts = network.parts();
     const std::vector<int> units = units_to(horizons_);
-    parts.module->eval();
+    network.parts().module->eval();
     double sum = 0;
     for (std::size_t begin = 0; begin < starts_.size(); begin += std::size_t(batch)) {
         report(progress, "validate", std::int64_t(begin), std::int64_t(starts_.size()));
         const std::size_t end = std::min(begin + std::size_t(batch), starts_.size());
-        const torch::NoGradGuard frozen;
         std::vector<torch::Tensor> contexts;
         for (std::size_t w = begin; w < end; ++w) {
             std::vector<torch::Tensor> frames;
             for (int i = 0; i < context_; ++i) frames.push_back(tensor_of(frame(starts_[w], i)));
             contexts.push_back(torch::stack(frames));
         }
-        const torch::Tensor out =
-            parts.module->predict(torch::stack(contexts).to(parts.device), units).to(torch::kCPU);
+        const torch::Tensor out = forecast_frames(network, torch::stack(contexts), units);
         for (std::size_t w = begin; w < end; ++w) {
             for (int k = 0; k < horizons_; ++k) {
                 const Image<SrgbF> predicted = image_of(out[std::int64_t(w - begin)][k]);
