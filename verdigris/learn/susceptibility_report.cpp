@@ -57,10 +57,7 @@ std::string cross_sentence(const SusceptibilityAnalysis& analysis,
         ++both;
         less += compared(cross.windows.specimen, w.windows.specimen) < 0;
     }
-    if (less == both)
-        return text +
-               ": less than within either. What is learned of one surface is "
-               "not what is believed of the other.";
+    if (less == both) return text + ": less than within either.";
     return text + (less == 0 ? ", which two standard errors do not tell from within them."
                              : ": less than within one of them, and not told from the other.");
 }
