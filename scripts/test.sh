@@ -12,8 +12,8 @@ scripts/build.sh ci
 ctest --preset ci -j2
 # The trained forecasters, in a build of their own: the rest must not need libtorch. One test at a
 # time, because libtorch takes all cores.
-scripts/build.sh learn verdigris_cli verdigris_fixture verdigris_learn_test
-ctest --preset learn -R '^(learn\.|cli\.learn)'
+scripts/build.sh learn verdigris_cli verdigris_fixture verdigris_learn_test verdigris_study_test
+ctest --preset learn -R '^(learn\.|study\.|cli\.learn)'
 if [ "${1:-}" != --quick ]; then
   # The rooms that read what others made, and their neighbors; the rest follows by hand where needed.
   scripts/build.sh sanitize verdigris_cli verdigris_fixture verdigris_recording_test \

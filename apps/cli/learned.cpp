@@ -23,6 +23,7 @@ bool is_checkpoint(const std::string& name) {
 void add_learned_commands(CLI::App& app, Session& session) {
     add_train(app, session);
     add_susceptibility(app, session);
+    add_study(app, session);
 }
 
 void check_checkpoints(const std::vector<std::string>& paths) {

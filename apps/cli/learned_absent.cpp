@@ -30,6 +30,7 @@ void add_learned_commands(CLI::App& app, Session& session) {
     add(app, session, "train", "Train a network on a recording (needs a build with libtorch)");
     add(app, session, "susceptibility",
         "What a network believes of a surface (needs a build with libtorch)");
+    add(app, session, "study", "Studies of networks (needs a build with libtorch)");
 }
 
 void check_checkpoints(const std::vector<std::string>& paths) {

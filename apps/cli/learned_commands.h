@@ -10,5 +10,6 @@ namespace verdigris::cli {
 
 void add_train(CLI::App& app, Session& session);
 void add_susceptibility(CLI::App& app, Session& session);
+void add_study(CLI::App& app, Session& session);
 
 }  // namespace verdigris::cli

@@ -14,7 +14,7 @@ std::vector<Nucleus> draw_nuclei(const SimulationSpec& spec, const CellGrid& gri
     // A Poisson process at the highest rate, thinned to the local one [LewisShedler1979]. chosen:
     // susceptibilities over 4 count as 4, so that the candidates do not depend on the grid.
     constexpr double kCap = 4;
-    const Random random(spec.seed, RandomStream::nuclei);
+    const Random random(spec.pattern_seed(), RandomStream::nuclei);
     const double rate = kCap * spec.nucleation.seeds * grid.width * grid.height;
     std::vector<Nucleus> nuclei;
     if (rate <= 0) return nuclei;

@@ -49,7 +49,7 @@ Scene::Scene(const SimulationSpec& spec, const CellGrid& grid)
     const double along = std::cos(radians(s.texture_angle)),
                  across = std::sin(radians(s.texture_angle));
     // Brush lines: as wide as the scale, 60 times as long; half as strong, coarser ones over them.
-    const Random random(spec_.seed, RandomStream::texture);
+    const Random random(spec_.pattern_seed(), RandomStream::texture);
     const GaussianField lines(random, 60 * s.texture_scale, s.texture_scale);
     const GaussianField bands(Random(random.bits(~0ull), RandomStream::texture),
                               90 * s.texture_scale, 6 * s.texture_scale);

@@ -56,6 +56,25 @@ TEST(Simulate, SameSpecSameFramesAtAnyThreadCount) {
     }
 }
 
+// The same plate on another day: its pattern stays, the noise and the light do not.
+TEST(Simulate, TheSpecimenHasASeedOfItsOwn) {
+    for (const std::string& preset : preset_names()) {
+        const SimulationSpec first = small(preset);
+        SimulationSpec again = first;
+        again.seed = 9;
+        again.specimen_seed = first.seed;
+        const CellGrid grid = specimen_grid(first);
+        const auto pattern = [&](const SimulationSpec& spec) {
+            const Image<double> field = susceptibility_field(spec, grid, {});
+            return std::vector<double>(field.pixels().begin(), field.pixels().end());
+        };
+        EXPECT_EQ(pattern(again), pattern(first)) << preset;
+        EXPECT_FALSE(all_pixels(again) == all_pixels(first)) << preset;
+        again.specimen_seed = 0;
+        EXPECT_NE(pattern(again), pattern(first)) << preset;
+    }
+}
+
 TEST(Simulate, StatesComeAtWholeUnitsAndAtTheEnd) {
     std::vector<double> units;
     simulate(small("air"), {.frame8 = {}, .frame16 = {}, .state = [&](const Specimen& s) {

@@ -115,6 +115,10 @@ struct FrameSpec {
 struct SimulationSpec {
     std::string preset = "uniform";  ///< what the other values started from
     std::uint64_t seed = 0;
+    /// Of the specimen alone: susceptibility, nuclei, wetness, brushing. 0: `seed`. With it the
+    /// same specimen comes before the camera on another day.
+    std::uint64_t specimen_seed = 0;
+    std::uint64_t pattern_seed() const { return specimen_seed != 0 ? specimen_seed : seed; }
     int grid = 128;  ///< cells across the specimen's longer side in which it corrodes
     FrameSpec frames;
     SceneSpec scene;

@@ -31,6 +31,8 @@ struct Section {
 
 void add_top(SimulationSpec& s, std::vector<SpecField>& f) {
     f.push_back({"", "seed", &s.seed, 0, 0x1p53, "another seed, another specimen and another day"});
+    f.push_back({"", "specimen_seed", &s.specimen_seed, 0, 0x1p53,
+                 "of the specimen alone, so that it can meet another day; 0: as seed"});
     f.push_back({"", "grid", &s.grid, 8, 1024, "cells across the longer side that corrode"});
 }
 

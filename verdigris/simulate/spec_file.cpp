@@ -302,7 +302,7 @@ std::string spec_text(const SimulationSpec& spec) {
             text += fmt::format("\n[{}]\n", section);
         }
         std::string about(field.meaning);
-        const bool bounded = field.least < field.most && field.key != "seed" &&
+        const bool bounded = field.least < field.most && !field.key.ends_with("seed") &&
                              !std::holds_alternative<bool*>(field.value);
         if (bounded) about += fmt::format("{}{}", about.empty() ? "" : "; ", allowed(field));
         if (std::holds_alternative<SpecChoice>(field.value)) about += "; " + allowed(field);

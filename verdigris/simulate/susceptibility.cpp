@@ -22,8 +22,8 @@ Image<double> reaction_pattern(const SimulationSpec& spec, const CellGrid& grid,
     const SusceptibilitySpec& s = spec.susceptibility;
     const double longer = std::max(grid.width, grid.height);
     const int side = std::max(16, int(std::ceil(longer / s.reaction_scale * 4)));
-    const Image<double> v = gray_scott(Random(spec.seed, RandomStream::reaction), side, s.feed,
-                                       s.kill, s.steps, breathe);
+    const Image<double> v = gray_scott(Random(spec.pattern_seed(), RandomStream::reaction), side,
+                                       s.feed, s.kill, s.steps, breathe);
     Image<double> pattern(grid.columns, grid.rows);
     const double per_side = side / longer;
     for (int y = 0; y < grid.rows; ++y) {
@@ -44,16 +44,16 @@ Image<double> susceptibility_field(const SimulationSpec& spec, const CellGrid& g
     const Image<double> broad =
         s.pattern == SusceptibilitySpec::Pattern::reaction_diffusion
             ? reaction_pattern(spec, grid, breathe)
-            : sampled(GaussianField(Random(spec.seed, RandomStream::susceptibility),
+            : sampled(GaussianField(Random(spec.pattern_seed(), RandomStream::susceptibility),
                                     s.coarse * s.stretch, s.coarse),
                       grid);
     const Image<double> fine =
-        sampled(GaussianField(Random(spec.seed, RandomStream::fine_susceptibility),
+        sampled(GaussianField(Random(spec.pattern_seed(), RandomStream::fine_susceptibility),
                               s.fine * s.stretch, s.fine),
                 grid);
     // Streaks: narrow across, a whole plate long downwards.
     const Image<double> streaks =
-        sampled(GaussianField(Random(spec.seed, RandomStream::drip), 0.03, 0.9), grid);
+        sampled(GaussianField(Random(spec.pattern_seed(), RandomStream::drip), 0.03, 0.9), grid);
     const double a = std::sqrt(1 - s.fine_share), b = std::sqrt(s.fine_share);
     Image<double> rho(grid.columns, grid.rows);
     for (int y = 0; y < grid.rows; ++y) {
@@ -73,8 +73,8 @@ Image<double> susceptibility_field(const SimulationSpec& spec, const CellGrid& g
 
 Image<double> wetness_field(const SimulationSpec& spec, const CellGrid& grid) {
     const PatinaSpec& p = spec.patina;
-    Image<double> wet = sampled(GaussianField(Random(spec.seed, RandomStream::wetness), p.wet_scale,
-                                              p.wet_scale * p.wet_runs),
+    Image<double> wet = sampled(GaussianField(Random(spec.pattern_seed(), RandomStream::wetness),
+                                              p.wet_scale, p.wet_scale * p.wet_runs),
                                 grid);
     for (double& v : wet.pixels()) v = std::exp(p.wet_spread * v);
     make_mean_one(wet);

@@ -120,6 +120,7 @@ void TruthWriter::commit(const SimulationResult& result, const std::string& reco
         {"simulated", true},
         {"preset", spec_.preset},
         {"seed", spec_.seed},
+        {"specimen_seed", spec_.pattern_seed()},
         {"frames", spec_.frames.count},
         {"units", spec_.frames.units},
         {"flicker", {{"amplitude", spec_.camera.flicker}, {"bands", spec_.camera.flicker_bands}}},

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/study/transfer_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+namespace verdigris {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr NumberFormat kGain{NumberStyle::percent, 1, true};
+constexpr NumberFormat kError{NumberStyle::scientific, 2, false};
+constexpr NumberFormat kFactor{NumberStyle::fixed, 2, false};
+constexpr NumberFormat kCount{NumberStyle::integer, 0, false};
+
+struct Cell {
+    bool same_pose, same_pattern;
+    const char* words;
+};
+constexpr Cell kCells[] = {{true, true, "another day"},
+                           {true, false, "another pattern"},
+                           {false, true, "another pose"},
+                           {false, false, "another pattern and pose"}};
+
+TableCell cell(const SeedMean& m) {
+    return m.has_interval() ? TableCell(m.mean, {m.low, m.high}) : TableCell(m.mean);
+}
+/// A mean of logarithms as the factor that it is.
+TableCell factor_cell(const SeedMean& m) {
+    if (!m.has_interval()) return TableCell(std::exp(m.mean));
+    return TableCell(std::exp(m.mean), {std::exp(m.low), std::exp(m.high)});
+}
+FigurePoint point(double x, const SeedMean& m) {
+    FigurePoint p{x, m.mean};
+    if (m.has_interval()) p.bounds = Bounds{m.low, m.high};
+    return p;
+}
+
+/// Gains of one forecaster in one cell, mean over seeds.
+SeedMean cell_gain(const TransferStudy& study, const std::string& preset,
+                   const std::string& forecaster, const Cell& which) {
+    std::vector<double> gains;
+    for (const TransferCell& c : study.cells) {
+        if (c.preset != preset || c.same_pose != which.same_pose ||
+            c.same_pattern != which.same_pattern) {
+            continue;
+        }
+        for (const TransferScore& s : c.scores)
+            if (s.forecaster == forecaster) gains.push_back(s.gain());
+    }
+    return seed_mean(gains);
+}
+
+SeedMean count_gain(const TransferStudy& study, const std::string& preset,
+                    const std::string& forecaster, int specimens) {
+    std::vector<double> gains;
+    for (const SpecimenCountCell& c : study.counts) {
+        if (c.preset != preset || c.specimens != specimens) continue;
+        for (const TransferScore& s : c.scores)
+            if (s.forecaster == forecaster) gains.push_back(s.gain());
+    }
+    return seed_mean(gains);
+}
+
+std::vector<std::string> forecasters(const TransferStudy& study) {
+    std::vector<std::string> names;
+    for (const TransferScore& s : study.cells.front().scores) names.push_back(s.forecaster);
+    return names;
+}
+
+/// "makes its error 1.40 times as large (1.10 to 1.80)", or that it cannot be told.
+std::string effect_words(const char* what, const SeedMean& m) {
+    if (!m.has_interval())
+        return fmt::format("{}: {:.2f} times the error (one seed)", what, std::exp(m.mean));
+    const std::string range = fmt::format("{:.2f} times the error, {:.2f} to {:.2f}",
+                                          std::exp(m.mean), std::exp(m.low), std::exp(m.high));
+    const bool told = m.low > 0 || m.high < 0;
+    return fmt::format("{}: {}{}", what, range, told ? "" : ", not told from none");
+}
+
+}  // namespace
+
+std::vector<std::string> transfer_sentences(const TransferStudy& study) {
+    std::vector<std::string> list;
+    for (const TransferEffects& e : transfer_effects(study)) {
+        if (e.forecaster == "affinergb") continue;  // it learns nothing beforehand
+        const SeedMean day = cell_gain(study, e.preset, e.forecaster, kCells[0]);
+        std::string gain = number_text(day.mean, kGain);
+        if (day.has_interval()) {
+            gain += fmt::format(" ({} to {})", number_text(day.low, kGain),
+                                number_text(day.high, kGain));
+        }
+        list.push_back(fmt::format(
+            "{} on {}, {} seeds: against holding still it gains {} on another day of the specimen "
+            "it learned from. {}; {}.",
+            e.forecaster, e.preset, day.count, gain, effect_words("Another pattern", e.pattern),
+            effect_words("another pose", e.pose)));
+    }
+    return list;
+}
+
+Table transfer_effect_table(const TransferStudy& study) {
+    Table table;
+    table.id = "effects";
+    table.title = "What changing one thing costs";
+    table.caption =
+        "Factors on the error relative to holding still, geometric means over seeds with "
+        "95 % intervals (Student's t on logarithms, paired by seed); above 1 is worse. "
+        "Interaction: the factor of changing both beyond the product of the two. "
+        "Simulated specimens.";
+    table.columns = {{"preset", "preset", Align::left},
+                     {"forecaster", "forecaster", Align::left},
+                     {"pattern", "another pattern", Align::right, kFactor, true},
+                     {"pose", "another pose", Align::right, kFactor, true},
+                     {"interaction", "interaction", Align::right, kFactor, true}};
+    for (const TransferEffects& e : transfer_effects(study)) {
+        table.add_row({e.preset, e.forecaster, factor_cell(e.pattern), factor_cell(e.pose),
+                       factor_cell(e.interaction)});
+    }
+    return table;
+}
+
+Table transfer_cell_table(const TransferStudy& study) {
+    Table table;
+    table.id = "cells";
+    table.title = "Gains over holding still";
+    table.caption =
+        "Of forecasters on a recording that differs from the one learned from in what "
+        "the column says; mean over seeds with 95 % intervals of Student's t.";
+    table.columns = {{"forecaster", "forecaster", Align::left}};
+    for (const Cell& c : kCells) {
+        const std::string id = fmt::format("{}_pose_{}_pattern", c.same_pose ? "same" : "other",
+                                           c.same_pattern ? "same" : "other");
+        table.columns.push_back({id, c.words, Align::right, kGain, true});
+    }
+    table.group_header = "preset";
+    for (const std::string& preset : study.options.presets) {
+        RowGroup group{preset, {}};
+        for (const std::string& name : forecasters(study)) {
+            TableRow row{name};
+            for (const Cell& c : kCells) row.push_back(cell(cell_gain(study, preset, name, c)));
+            group.rows.push_back(std::move(row));
+        }
+        table.groups.push_back(std::move(group));
+    }
+    return table;
+}
+
+Table specimen_count_table(const TransferStudy& study) {
+    Table table;
+    table.id = "specimens";
+    table.title = "Learning from more specimens";
+    table.caption =
+        "Gain over holding still on a specimen of another pattern and pose, after as "
+        "many steps of training, on windows of 1 or more specimens; mean over seeds "
+        "with 95 % intervals of Student's t.";
+    table.columns = {{"forecaster", "forecaster", Align::left}};
+    for (const int n : study.options.specimens) {
+        table.columns.push_back(
+            {fmt::format("of_{}", n), std::to_string(n), Align::right, kGain, true});
+    }
+    table.group_header = "preset";
+    for (const std::string& preset : study.options.presets) {
+        RowGroup group{preset, {}};
+        for (const std::string& name : forecasters(study)) {
+            TableRow row{name};
+            for (const int n : study.options.specimens)
+                row.push_back(cell(count_gain(study, preset, name, n)));
+            group.rows.push_back(std::move(row));
+        }
+        table.groups.push_back(std::move(group));
+    }
+    return table;
+}
+
+Table transfer_scores(const TransferStudy& study) {
+    Table table;
+    table.id = "scores_all";
+    table.title = "Every score";
+    table.columns = {{"part", "part", Align::left},
+                     {"preset", "preset", Align::left},
+                     {"seed", "seed", Align::right, kCount},
+                     {"specimens", "specimens", Align::right, kCount},
+                     {"pose", "pose", Align::left},
+                     {"pattern", "pattern", Align::left},
+                     {"forecaster", "forecaster", Align::left},
+                     {"error", "error", Align::right, kError},
+                     {"persistence", "persistence", Align::right, kError}};
+    const auto same = [](bool v) { return v ? "same" : "other"; };
+    for (const TransferCell& c : study.cells) {
+        for (const TransferScore& s : c.scores) {
+            table.add_row({"factorial", c.preset, c.seed, 1, same(c.same_pose),
+                           same(c.same_pattern), s.forecaster, s.error, s.persistence});
+        }
+    }
+    for (const SpecimenCountCell& c : study.counts) {
+        for (const TransferScore& s : c.scores) {
+            table.add_row({"specimens", c.preset, c.seed, c.specimens, "other", "other",
+                           s.forecaster, s.error, s.persistence});
+        }
+    }
+    for (const TransferStudy::Own& o : study.own) {
+        table.add_row(
+            {"validation", o.preset, o.seed, 1, "same", "same", o.network, o.error, o.persistence});
+    }
+    return table;
+}
+
+Figure transfer_figure(const TransferStudy& study) {
+    Figure figure;
+    figure.id = "factorial";
+    figure.title = "One thing changed at a time";
+    figure.caption = "Gain over holding still, mean over seeds with 95 % intervals of Student's t.";
+    for (const std::string& preset : study.options.presets) {
+        FigurePanel panel;
+        panel.title = preset;
+        panel.y = {.label = "gain over persistence", .format = kGain};
+        for (const Cell& c : kCells) panel.x.categories.emplace_back(c.words);
+        for (const std::string& name : forecasters(study)) {
+            FigureSeries series{name, SeriesKind::points, {}};
+            for (std::size_t i = 0; i < std::size(kCells); ++i)
+                series.points.push_back(
+                    point(double(i), cell_gain(study, preset, name, kCells[i])));
+            panel.series.push_back(std::move(series));
+        }
+        panel.references.push_back({"persistence", 0});
+        figure.panels.push_back(std::move(panel));
+    }
+    return figure;
+}
+
+Figure specimen_count_figure(const TransferStudy& study) {
+    Figure figure;
+    figure.id = "more-specimens";
+    figure.title = "More specimens";
+    figure.caption =
+        "Gain over holding still on a specimen never seen, by how many were learned "
+        "from, for as many steps; mean over seeds with 95 % intervals.";
+    for (const std::string& preset : study.options.presets) {
+        FigurePanel panel;
+        panel.title = preset;
+        panel.y = {.label = "gain over persistence", .format = kGain};
+        panel.x.label = "specimens learned from";
+        for (const int n : study.options.specimens) panel.x.categories.push_back(std::to_string(n));
+        for (const std::string& name : forecasters(study)) {
+            FigureSeries series{name, SeriesKind::points, {}};
+            double x = 0;
+            for (const int n : study.options.specimens)
+                series.points.push_back(point(x++, count_gain(study, preset, name, n)));
+            panel.series.push_back(std::move(series));
+        }
+        panel.references.push_back({"persistence", 0});
+        figure.panels.push_back(std::move(panel));
+    }
+    return figure;
+}
+
+Report transfer_report(const TransferStudy& study) {
+    const TransferStudyOptions& o = study.options;
+    Report report;
+    report.title = "Why does a network not transfer?";
+    report.subtitle = fmt::format("{} simulated specimens per place, {} pixels, {} epochs", o.seeds,
+                                  o.size, o.epochs);
+    ReportSection verdict{"verdict", "Verdict", {BulletList{transfer_sentences(study)}}};
+    if (o.seeds < 3) {
+        verdict.blocks.push_back(
+            Status{"few_seeds", Severity::caution,
+                   fmt::format("With {} seeds an interval says next to nothing; take three at the "
+                               "least.",
+                               o.seeds)});
+    }
+    report.sections.push_back(std::move(verdict));
+    report.sections.push_back(
+        {"factorial-design",
+         "One thing changed at a time",
+         {transfer_figure(study), transfer_effect_table(study), transfer_cell_table(study)}});
+    report.sections.push_back(
+        {"count", "More specimens", {specimen_count_figure(study), specimen_count_table(study)}});
+    report.sections.push_back(
+        {"method",
+         "How it was done",
+         {Paragraph{fmt::format(
+             "All specimens are simulated. A network learns from one specimen ({} windows of the "
+             "first half of 950 samples, {} epochs, the epoch chosen on a later stretch of the "
+             "same "
+             "recording) and is judged on {} windows of four other recordings: the same specimen "
+             "on "
+             "another day (noise, light and environment are others), a specimen of another "
+             "pattern, "
+             "the same one turned by 8 degrees, moved and a tenth smaller, and both. Frames are "
+             "not "
+             "cropped, so that a pose is a pose. Camera and kinetics change together, by preset "
+             "({}). "
+             "In the second part windows of several specimens are mixed and the number of steps is "
+             "kept.",
+             o.train_windows > 0 ? std::to_string(o.train_windows) : "all", o.epochs,
+             o.test_windows, fmt::join(o.presets, ", "))}}});
+    return report;
+}
+
+Json json_of(const TransferStudy& study) {
+    const auto mean = [](const SeedMean& m) {
+        return Json{{"mean", m.mean},
+                    {"low", m.has_interval() ? Json(m.low) : Json(nullptr)},
+                    {"high", m.has_interval() ? Json(m.high) : Json(nullptr)},
+                    {"seeds", m.count}};
+    };
+    Json effects = Json::array();
+    for (const TransferEffects& e : transfer_effects(study)) {
+        effects.push_back({{"preset", e.preset},
+                           {"forecaster", e.forecaster},
+                           {"log_pattern", mean(e.pattern)},
+                           {"log_pose", mean(e.pose)},
+                           {"log_interaction", mean(e.interaction)},
+                           {"log_ratio_same_specimen", mean(e.day_only)}});
+    }
+    return {{"simulated", true},
+            {"seeds", study.options.seeds},
+            {"size", study.options.size},
+            {"epochs", study.options.epochs},
+            {"effects", std::move(effects)},
+            {"sentences", transfer_sentences(study)}};
+}
+
+}  // namespace verdigris

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/study/transfer_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "verdigris/error.h"
+#include "verdigris/evaluate/characterize.h"
+#include "verdigris/evaluate/evaluate.h"
+#include "verdigris/learn/train.h"
+#include "verdigris/simulate/simulate.h"
+
+namespace verdigris {
+namespace fs = std::filesystem;
+namespace {
+
+// Numbers of patterns and days that no two uses share.
+constexpr int kOtherPattern = 1000, kTestPattern = 2000, kSecondDay = 500, kMorePatterns = 100;
+
+void check_options(const TransferStudyOptions& o) {
+    const auto must = [](bool holds, const char* what) {
+        if (!holds) throw Error(ErrorCode::usage, what);
+    };
+    must(!o.networks.empty() && !o.presets.empty(), "a study needs a network and a preset");
+    must(o.seeds >= 1 && o.seeds <= 50, "seeds must be 1 to 50");
+    must(o.size >= 16 && o.size <= 256 && o.size % 8 == 0,
+         "the study's size must be 16 to 256, a multiple of 8");
+    must(o.epochs >= 1 && o.epochs <= 1000, "epochs must be 1 to 1000");
+    must(o.test_windows >= 1 && o.train_windows >= 0, "the number of windows cannot be negative");
+    for (const int n : o.specimens)
+        must(n >= 1 && n <= 16, "a study can learn from 1 to 16 specimens at once");
+}
+
+EvaluationProtocol study_protocol(const TransferStudyOptions& o) {
+    EvaluationProtocol protocol;  // the paper's grid, windows and splits
+    protocol.max_windows = o.test_windows;
+    protocol.single = true;  // what is held out is decided here, specimen by specimen
+    protocol.delta_e = false;
+    protocol.hash_frames = false;
+    return protocol;
+}
+
+class Study {
+  public:
+    Study(const TransferStudyOptions& options, const fs::path& runs, const Progress& progress)
+        : options_(options), runs_(runs), progress_(progress), protocol_(study_protocol(options)) {
+        const int networks = int(options.networks.size());
+        const int counted =
+            int(std::ranges::count_if(options.specimens, [](int n) { return n > 1; }));
+        total_ = std::int64_t(options.presets.size()) * options.seeds *
+                 (networks * (1 + counted) + 4 + int(options.specimens.size()));
+    }
+
+    TransferStudy run() {
+        TransferStudy study;
+        study.options = options_;
+        for (const std::string& preset : options_.presets) {
+            for (int seed = 1; seed <= options_.seeds; ++seed) {
+                const std::vector<Entrant> one = trained(study, preset, seed, 1);
+                for (const bool same_pose : {true, false}) {
+                    for (const bool same_pattern : {true, false}) {
+                        const int pattern = same_pattern ? seed : kOtherPattern + seed;
+                        study.cells.push_back(
+                            {preset, seed, same_pose, same_pattern,
+                             scores(observed(preset, pattern, kSecondDay + seed, same_pose), one)});
+                        done();
+                    }
+                }
+                for (const int n : options_.specimens) {
+                    const std::vector<Entrant> entrants =
+                        n == 1 ? one : trained(study, preset, seed, n);
+                    const Observation test =
+                        observed(preset, kTestPattern + seed, kSecondDay + seed, false);
+                    study.counts.push_back({preset, seed, n, scores(test, entrants)});
+                    done();
+                }
+            }
+        }
+        return study;
+    }
+
+  private:
+    void done() { report(progress_, "study", ++done_, total_); }
+
+    Observation observed(const std::string& preset, int specimen, int day, bool usual_pose) {
+        ObserveOptions options;
+        options.crop.mode = CropMode::none;  // the frame is what stays where it is
+        options.size = options_.size;
+        options.keep = Keep::every_sample;
+        const SimulationSpec spec = transfer_spec(preset, specimen, day, usual_pose, options_.size);
+        Observation o = observe(simulated_recording(spec, progress_), options, progress_);
+        o.source_name = fmt::format("{} specimen {}, day {}{}", preset, specimen, day,
+                                    usual_pose ? "" : ", moved");
+        return o;
+    }
+
+    /// Networks that learned from `n` specimens, the first of them that of `seed` in its usual
+    /// pose.
+    std::vector<Entrant> trained(TransferStudy& study, const std::string& preset, int seed, int n) {
+        std::vector<Observation> observations;
+        for (int i = 0; i < n; ++i) {
+            const int specimen = i == 0 ? seed : kMorePatterns * seed + i;
+            observations.push_back(observed(preset, specimen, specimen, i % 2 == 0));
+        }
+        EvaluationProtocol protocol = protocol_;
+        std::vector<TrainingSource> sources;
+        for (const Observation& o : observations) {
+            const WindowPlan plan = plan_windows(protocol, o.store->count(), o.source_name);
+            sources.push_back({o.source_name, &o, plan.splits->train, plan.splits->validation});
+        }
+        const int windows = options_.train_windows > 0
+                                ? options_.train_windows
+                                : windows_inside(sources.front().train, protocol.span());
+        std::vector<Entrant> entrants;
+        for (const NetworkKind kind : options_.networks) {
+            TrainOptions train;
+            train.kind = kind;
+            train.epochs = options_.epochs;
+            train.seed = std::uint64_t(seed);
+            train.max_windows = std::max(1, windows / n);  // as many steps, whatever n
+            train.threads = options_.threads;
+            train.resume = true;
+            const fs::path folder =
+                runs_ / fmt::format("{}-{}-seed{}-of{}", to_string(kind), preset, seed, n);
+            const TrainedNetwork network =
+                train_network(protocol, sources, train, folder, progress_);
+            if (n == 1) {
+                study.own.push_back({preset, to_string(kind), seed, network.facts.validation_error,
+                                     network.facts.validation_persistence});
+            }
+            entrants.push_back(training_free(
+                as_forecaster(network.network, to_string(kind), units_to(protocol.horizons))));
+            done();
+        }
+        Entrant affine = training_free(affinergb(paper_affine()));
+        affine.name = "affinergb";
+        entrants.push_back(std::move(affine));
+        return entrants;
+    }
+
+    std::vector<TransferScore> scores(const Observation& test,
+                                      const std::vector<Entrant>& entrants) {
+        const Evaluation evaluation = evaluate(protocol_, std::span(&test, 1), entrants, progress_);
+        const Direction& d = evaluation.directions.front();
+        if (d.starts.empty()) {
+            throw Error(ErrorCode::refused, "leaves no window to score: too little changes",
+                        test.source_name);
+        }
+        const double persistence = overall_mean(d.persistence().foreground);
+        std::vector<TransferScore> list;
+        for (std::size_t i = 1; i < d.entrants.size(); ++i) {
+            list.push_back(
+                {d.entrants[i].name, overall_mean(d.entrants[i].foreground), persistence});
+        }
+        return list;
+    }
+
+    const TransferStudyOptions& options_;
+    const fs::path& runs_;
+    const Progress& progress_;
+    EvaluationProtocol protocol_;
+    std::int64_t done_ = 0, total_ = 0;
+};
+
+struct Square {
+    double of[2][2] = {};  ///< [same pose][same pattern]
+};
+
+/// 97.5 % points of Student's t [Student1908], for 1 to 10 degrees of freedom and beyond.
+double student(int degrees) {
+    constexpr double kPoints[] = {12.706, 4.303, 3.182, 2.776, 2.571,
+                                  2.447,  2.365, 2.306, 2.262, 2.228};
+    return degrees <= 10 ? kPoints[degrees - 1] : 1.96 + 2.4 / degrees;
+}
+
+}  // namespace
+
+TransferStudyOptions quick_transfer_study() {
+    TransferStudyOptions o;
+    o.networks = {NetworkKind::patinanet};
+    o.presets = {"chamber"};
+    o.seeds = 2;
+    o.specimens = {1, 2};
+    o.size = 32;
+    o.epochs = 2;
+    o.train_windows = 64;
+    o.test_windows = 20;
+    return o;
+}
+
+double TransferScore::log_ratio() const {
+    return std::log(error / persistence);
+}
+
+SimulationSpec transfer_spec(const std::string& preset, int specimen, int day, bool usual_pose,
+                             int size) {
+    SimulationSpec spec = preset_spec(preset);
+    spec.seed = std::uint64_t(100000 + day);
+    spec.specimen_seed = std::uint64_t(specimen);
+    // chosen: twice the samples' size, so that they are averages of pixels as any recording's are.
+    spec.frames.width = spec.frames.height = 2 * size;
+    if (!usual_pose) {
+        spec.scene.tilt += 8;
+        spec.scene.center_x += 0.05;
+        spec.scene.center_y -= 0.05;
+        spec.scene.width *= 0.9;
+        spec.scene.height *= 0.9;
+    }
+    return spec;
+}
+
+TransferStudy run_transfer_study(const TransferStudyOptions& options, const fs::path& runs,
+                                 const Progress& progress) {
+    check_options(options);
+    return Study(options, runs, progress).run();
+}
+
+SeedMean seed_mean(const std::vector<double>& values) {
+    SeedMean m;
+    m.count = int(values.size());
+    if (values.empty()) return m;
+    for (const double v : values) m.mean += v / m.count;
+    m.low = m.high = m.mean;
+    if (m.count < 2) return m;
+    double sum = 0;
+    for (const double v : values) sum += (v - m.mean) * (v - m.mean);
+    const double half = student(m.count - 1) * std::sqrt(sum / (m.count - 1) / m.count);
+    m.low -= half;
+    m.high += half;
+    return m;
+}
+
+std::vector<TransferEffects> transfer_effects(const TransferStudy& study) {
+    // Log ratios by preset and forecaster, then by seed.
+    std::map<std::pair<std::string, std::string>, std::map<int, Square>> table;
+    for (const TransferCell& c : study.cells) {
+        for (const TransferScore& s : c.scores)
+            table[{c.preset, s.forecaster}][c.seed].of[c.same_pose][c.same_pattern] = s.log_ratio();
+    }
+    std::vector<TransferEffects> effects;
+    for (const auto& [key, seeds] : table) {
+        std::vector<double> pose, pattern, interaction, day;
+        for (const auto& [seed, square] : seeds) {
+            const auto& l = square.of;
+            pose.push_back((l[0][1] - l[1][1] + l[0][0] - l[1][0]) / 2);
+            pattern.push_back((l[1][0] - l[1][1] + l[0][0] - l[0][1]) / 2);
+            interaction.push_back(l[0][0] - l[0][1] - l[1][0] + l[1][1]);
+            day.push_back(l[1][1]);
+        }
+        effects.push_back({key.first, key.second, seed_mean(pose), seed_mean(pattern),
+                           seed_mean(interaction), seed_mean(day)});
+    }
+    return effects;
+}
+
+}  // namespace verdigris
