@@ -133,18 +133,16 @@ Table transfer_cell_table(const TransferStudy& study) {
     table.caption =
         "Of forecasters on a recording that differs from the one learned from in what "
         "the column says; mean over seeds with 95 % intervals of Student's t.";
-    table.columns = {{"forecaster", "forecaster", Align::left}};
-    for (const Cell& c : kCells) {
-        const std::string id = fmt::format("{}_pose_{}_pattern", c.same_pose ? "same" : "other",
-                                           c.same_pattern ? "same" : "other");
-        table.columns.push_back({id, c.words, Align::right, kGain, true});
-    }
+    table.columns = {{"differs", "judged on", Align::left}};
+    for (const std::string& name : forecasters(study))
+        table.columns.push_back({name, name, Align::right, kGain, true});
     table.group_header = "preset";
     for (const std::string& preset : study.options.presets) {
         RowGroup group{preset, {}};
-        for (const std::string& name : forecasters(study)) {
-            TableRow row{name};
-            for (const Cell& c : kCells) row.push_back(cell(cell_gain(study, preset, name, c)));
+        for (const Cell& c : kCells) {
+            TableRow row{c.words};
+            for (const std::string& name : forecasters(study))
+                row.push_back(cell(cell_gain(study, preset, name, c)));
             group.rows.push_back(std::move(row));
         }
         table.groups.push_back(std::move(group));
@@ -160,17 +158,15 @@ Table specimen_count_table(const TransferStudy& study) {
         "Gain over holding still on a specimen of another pattern and pose, after as "
         "many steps of training, on windows of 1 or more specimens; mean over seeds "
         "with 95 % intervals of Student's t.";
-    table.columns = {{"forecaster", "forecaster", Align::left}};
-    for (const int n : study.options.specimens) {
-        table.columns.push_back(
-            {fmt::format("of_{}", n), std::to_string(n), Align::right, kGain, true});
-    }
+    table.columns = {{"specimens", "learned from", Align::left}};
+    for (const std::string& name : forecasters(study))
+        table.columns.push_back({name, name, Align::right, kGain, true});
     table.group_header = "preset";
     for (const std::string& preset : study.options.presets) {
         RowGroup group{preset, {}};
-        for (const std::string& name : forecasters(study)) {
-            TableRow row{name};
-            for (const int n : study.options.specimens)
+        for (const int n : study.options.specimens) {
+            TableRow row{n == 1 ? "1 specimen" : fmt::format("{} specimens", n)};
+            for (const std::string& name : forecasters(study))
                 row.push_back(cell(count_gain(study, preset, name, n)));
             group.rows.push_back(std::move(row));
         }
