@@ -36,15 +36,16 @@ Figure loss_figure(const TrainedNetwork& trained) {
     loss.x.label = validation.x.label = "epoch";
     loss.y = {"loss (1: persistence, about)", AxisScale::log10};
     validation.title = "validation, same recording";
-    validation.y = {"foreground MSE", AxisScale::log10};
+    validation.y = {.label = "foreground MSE, share of persistence's",
+                    .format = {NumberStyle::percent, 0, false}};
     FigureSeries a{"training windows", SeriesKind::line, {}}, b{"network", SeriesKind::line, {}};
     for (const EpochRecord& e : trained.epochs) {
         a.points.push_back({double(e.epoch), e.train_loss});
-        b.points.push_back({double(e.epoch), e.validation_error});
+        b.points.push_back({double(e.epoch), e.validation_error / e.validation_persistence});
     }
     loss.series.push_back(a);
     validation.series.push_back(b);
-    validation.references.push_back({"persistence", trained.facts.validation_persistence});
+    validation.references.push_back({"persistence", 1});
     figure.panels = {loss, validation};
     return figure;
 }

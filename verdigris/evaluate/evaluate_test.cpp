@@ -60,6 +60,24 @@ TEST(Evaluate, AGlobalAffineDriftIsForecastAlmostExactly) {
     EXPECT_TRUE(e.notes.empty()) << e.notes.front().sentence;
 }
 
+TEST(Evaluate, HoldsOutOneRecordingOnlyWhereAsked) {
+    EvaluationProtocol protocol = small();
+    const Evaluation both = evaluate(protocol, pair(), {training_free(affinergb(plain()))});
+    protocol.hold_out = "air";
+    const Evaluation one = evaluate(protocol, pair(), {training_free(affinergb(plain()))});
+    ASSERT_EQ(one.directions.size(), 1u);
+    EXPECT_EQ(one.directions[0].label(), "chamber -> air");
+    EXPECT_EQ(one.directions[0].entrants[1].foreground.values,
+              both.directions[1].entrants[1].foreground.values);
+    EXPECT_EQ(one.record.recordings.size(), 2u);
+    EXPECT_TRUE(one.notes.empty());
+    protocol.hold_out = "sea";
+    EXPECT_THROW(evaluate(protocol, pair(), {}), Error);
+    protocol.hold_out = "air";
+    protocol.single = true;
+    EXPECT_THROW(evaluate(protocol, pair(), {}), Error);
+}
+
 TEST(Evaluate, PersistenceOnALinearRampHasItsClosedForm) {
     // Every pixel moves by (a, b, c) per unit: the error at horizon k is k^2 (a^2 + b^2 + c^2) / 3.
     const double a = 0.004, b = -0.002, c = 0.001;

@@ -31,9 +31,11 @@ TEST_F(ProtocolFile, WhatIsWrittenReadsBack) {
     p.embargo = 30;
     p.area = EvaluatedArea::specimen;
     p.mask = MaskRule::per_horizon;
-    p.single = true;
     p.hold_out = "plate \"A\" \\ 2";
     EXPECT_EQ(read_protocol(file(protocol_text(p))).hold_out, p.hold_out);
+    p.single = true;
+    EXPECT_NE(refused(protocol_text(p)).find("single holds nothing out"), std::string::npos);
+    p.hold_out.clear();
     EXPECT_EQ(protocol_text(read_protocol(file(protocol_text(p)))), protocol_text(p));
     EXPECT_EQ(protocol_text(read_protocol(file(""))), protocol_text(EvaluationProtocol()));
     const EvaluationProtocol back = read_protocol(file(protocol_text(p)));
