@@ -60,6 +60,7 @@ Json json_of(const EpochRecord& e) {
     return {{"epoch", e.epoch},
             {"train_loss", e.train_loss},
             {"validation_error", e.validation_error},
+            {"step_seconds", e.step_seconds},
             {"seconds", e.seconds}};
 }
 

@@ -19,7 +19,8 @@ struct EpochRecord {
     double validation_error = 0;        ///< mean foreground MSE over the validation windows
     double validation_persistence = 0;  ///< of holding still, on the same windows
     double learning_rate = 0;           ///< at its end
-    double seconds = 0;                 ///< not repeatable, and no part of a checkpoint
+    double step_seconds = 0;  ///< median of its steps; like seconds, no part of best.safetensors
+    double seconds = 0;       ///< not repeatable, and no part of best.safetensors
 };
 
 /// A recording that a network learned from.

@@ -95,7 +95,7 @@ class Trainer {
             const auto start = std::chrono::steady_clock::now();
             EpochRecord record;
             record.epoch = epoch;
-            record.train_loss = train_epoch(epoch);
+            train_epoch(record);
             record.learning_rate = learning_rate(std::int64_t(epoch) * steps_per_epoch_);
             const ValidationErrors errors = validation_errors();
             record.validation_error = errors.network;
@@ -228,10 +228,13 @@ class Trainer {
         for (const EpochRecord& e : epochs_) best_ = std::min(best_, e.validation_error);
     }
 
-    double train_epoch(int epoch) {
+    /// Fills in the loss and the time of a step.
+    void train_epoch(EpochRecord& record) {
+        const int epoch = record.epoch;
         module().train();
         const std::vector<int> order = shuffled(int(chosen_.size()), options_.seed, epoch);
         double sum = 0;
+        std::vector<double> seconds;
         for (int i = 0; i < steps_per_epoch_; ++i) {
             const std::int64_t step = std::int64_t(epoch - 1) * steps_per_epoch_ + i;
             report(progress_, "train", step, std::int64_t(options_.epochs) * steps_per_epoch_);
@@ -241,9 +244,14 @@ class Trainer {
                 batch.push_back(chosen_[std::size_t(order[std::size_t(j)])]);
             }
             set_learning_rate(*optimizer_, learning_rate(step));
+            const auto start = std::chrono::steady_clock::now();
             sum += train_step(batch, epoch, step);
+            seconds.push_back(
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         }
-        return sum / steps_per_epoch_;
+        record.train_loss = sum / steps_per_epoch_;
+        std::ranges::nth_element(seconds, seconds.begin() + std::ptrdiff_t(seconds.size() / 2));
+        record.step_seconds = seconds[seconds.size() / 2];
     }
 
     double train_step(const std::vector<Window>& batch, int epoch, std::int64_t step) {

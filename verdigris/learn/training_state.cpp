@@ -31,6 +31,7 @@ Json json_of(const EpochRecord& e) {
             {"validation_error", e.validation_error},
             {"validation_persistence", e.validation_persistence},
             {"learning_rate", e.learning_rate},
+            {"step_seconds", e.step_seconds},
             {"seconds", e.seconds}};
 }
 
@@ -40,6 +41,7 @@ EpochRecord epoch_of(const Json& json) {
             json.at("validation_error").get<double>(),
             json.at("validation_persistence").get<double>(),
             json.at("learning_rate").get<double>(),
+            json.at("step_seconds").get<double>(),
             json.at("seconds").get<double>()};
 }
 
