@@ -265,7 +265,9 @@ void run(Session& session, const std::string& results) {
     const fs::path folder = results;
     const EvaluationRecord record =
         record_from(read_json(folder / kRecordFile), (folder / kRecordFile).string());
-    Statuses findings = check_file_list(folder);
+    Statuses findings =
+        check_file_list(folder, {"report.html", kEvaluationFile, kRecordFile, kProtocolFile,
+                                 "tables/errors.csv", "tables/windows_all.csv"});
     const Statuses leaked = audit(record);
     findings.insert(findings.end(), leaked.begin(), leaked.end());
     check_protocol_of(folder, record, findings);

@@ -89,7 +89,12 @@ void JudgeArguments::add_rules(CLI::App& command) {
     command.add_option("--area", area, "frame (all pixels, as the paper) or specimen")
         ->check(CLI::IsMember({"frame", "specimen"}));
     command.add_option("--tau", tau, "Foreground threshold (default: 2.40 times the noise)")
-        ->check(CLI::Range(1e-6, 1.0));
+        ->check(CLI::Range(1e-6, 1.0))
+        ->check(CLI::Validator(
+            [](std::string& text) {  // no comparison holds for it, so no range refuses it
+                return text.find("nan") == std::string::npos ? "" : "nan is no threshold";
+            },
+            ""));
 }
 
 std::vector<Observation> observe_all(Session& session, const JudgeArguments& a) {
@@ -108,6 +113,10 @@ std::vector<Observation> observe_all(Session& session, const JudgeArguments& a) 
         session.say(fmt::format("observed  {}: {} samples, {} per unit, noise {:.3f} %",
                                 observation.source_name, observation.store->count(),
                                 observation.axis.samples_per_unit, 100 * observation.noise.sigma));
+        for (const Status& s : observation.notes)
+            if (s.severity != Severity::info)
+                session.tell({s.id, Severity::caution,
+                              fmt::format("{}: {}", observation.source_name, s.sentence)});
         observations.push_back(std::move(observation));
     }
     return observations;

@@ -359,7 +359,15 @@ Evaluation evaluate(const EvaluationProtocol& protocol, std::span<const Observat
     record.span = protocol.span();
     record.embargo = protocol.embargo_samples();
     record.single = protocol.single;
-    for (const Entry& e : entries) record.recordings.push_back(e.record);
+    for (const Entry& e : entries) {
+        record.recordings.push_back(e.record);
+        for (const Status& s : e.observation->notes) {
+            // What refuses a forecast for authoring is a caution here: all is judged.
+            if (s.severity != Severity::info)
+                evaluation.recording_notes.push_back(
+                    {s.id, Severity::caution, e.record.name + ": " + s.sentence});
+        }
+    }
 
     check_hold_out(protocol, entries);
     Statuses notes;

@@ -44,6 +44,8 @@ struct Evaluation {
     std::vector<Direction> directions;  ///< one per recording, in their order
     EvaluationRecord record;            ///< what was used, for audit()
     Statuses notes;                     ///< the audit's findings first
+    /// Cautions about the recordings themselves, each beginning with its name: cut off, few frames.
+    Statuses recording_notes;
 };
 
 /// Holds out each observation in turn (protocol.single: evaluates each by itself, labeled so) and

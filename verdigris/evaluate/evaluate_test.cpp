@@ -60,6 +60,15 @@ TEST(Evaluate, AGlobalAffineDriftIsForecastAlmostExactly) {
     EXPECT_TRUE(e.notes.empty()) << e.notes.front().sentence;
 }
 
+TEST(Evaluate, PassesOnWhatIsWrongWithARecording) {
+    std::vector<Observation> list = pair();
+    list[1].notes = {{"broken_tail", Severity::caution, "cut off after 44 of 100 frames"},
+                     {"something", Severity::info, "not worth a word"}};
+    const Evaluation e = evaluate(small(), list, {});
+    ASSERT_EQ(e.recording_notes.size(), 1u);
+    EXPECT_EQ(e.recording_notes[0].sentence, "air: cut off after 44 of 100 frames");
+}
+
 TEST(Evaluate, HoldsOutOneRecordingOnlyWhereAsked) {
     EvaluationProtocol protocol = small();
     const Evaluation both = evaluate(protocol, pair(), {training_free(affinergb(plain()))});

@@ -66,7 +66,10 @@ Table characterization_table(const Characterization& table,
         "Foreground MSE of affinergb and its gain over holding still on the same windows, with "
         "nominal 95 % block intervals. One axis varies per block of rows; \u2020 marks what is "
         "used everywhere else. Unregularized and unclamped except under ridge.";
-    out.note = "Windows shift with the number of frames observed, and so does holding still.";
+    out.note =
+        "Windows shift with the number of frames observed, and so does holding still. By "
+        "default 60 windows per recording count (--windows all: every one); one unusual "
+        "window weighs more among few, so numbers differ from those of `evaluate`.";
     out.group_header = "axis";
     out.columns = {{"setting", "Setting", Align::left}};
     for (std::size_t i = 0; i < table.directions.size(); ++i) {

@@ -90,6 +90,7 @@ Json json_of(const Evaluation& evaluation, const std::vector<DirectionVerdict>& 
         out["directions"].push_back(std::move(direction));
     }
     out["notes"] = notes_json(evaluation.notes);
+    out["recording_notes"] = notes_json(evaluation.recording_notes);
     return out;
 }
 

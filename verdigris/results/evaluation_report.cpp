@@ -187,8 +187,10 @@ Report evaluation_report(const Evaluation& evaluation, const std::vector<Directi
             p.single
                 ? "Nothing was held out, so nothing could leak into it."
                 : "Nothing leaked: no window crosses a split, no identical frame is used twice, "
-                  "no held-out recording had a part in training or selection."});
+                  "no held-out recording had a part in training or selection. Copies that were "
+                  "turned, mirrored or cropped are not recognized."});
     for (const Status& s : evaluation.notes) leaks.blocks.push_back(s);
+    for (const Status& s : evaluation.recording_notes) leaks.blocks.push_back(s);
     report.sections.push_back(std::move(leaks));
 
     report.sections.push_back({"by-forecaster", "Errors", {error_table(evaluation)}});

@@ -8,6 +8,7 @@
 
 #include "verdigris/results/cells.h"
 #include "verdigris/results/evaluation_report.h"
+#include "verdigris/results/resolved.h"
 
 namespace verdigris {
 namespace {
@@ -89,8 +90,11 @@ Table interval_table(const std::vector<DirectionVerdict>& list) {
         RowGroup group;
         group.title = d.direction->label();
         for (const EntrantVerdict& e : d.entrants) {
-            group.rows.push_back({TableCell(e.name), interval_cell(e.gain, e.block),
-                                  interval_cell(e.gain, e.circular_block),
+            // Of fewer blocks an interval says nothing, and the sentences say so.
+            const bool few = e.blocks.size() < kFewBlocks;
+            group.rows.push_back({TableCell(e.name),
+                                  interval_cell(e.gain, few ? std::nullopt : e.block),
+                                  interval_cell(e.gain, few ? std::nullopt : e.circular_block),
                                   interval_cell(e.gain, e.naive)});
         }
         table.groups.push_back(std::move(group));
@@ -264,7 +268,8 @@ Figure gain_figure(const std::vector<DirectionVerdict>& list) {
         for (const EntrantVerdict& e : d.entrants) {
             if (!std::isfinite(e.gain)) continue;
             series.points.push_back(
-                interval_point(double(panel.x.categories.size()), e.gain, e.block));
+                interval_point(double(panel.x.categories.size()), e.gain,
+                               e.blocks.size() < kFewBlocks ? std::nullopt : e.block));
             panel.x.categories.push_back(e.name);
         }
         panel.series.push_back(std::move(series));

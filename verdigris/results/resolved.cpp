@@ -15,9 +15,6 @@ namespace verdigris {
 namespace {
 using Json = nlohmann::ordered_json;
 
-// chosen: of four blocks or fewer a percentile interval is little more than their range.
-constexpr std::size_t kFewBlocks = 5;
-
 }  // namespace
 
 Resolved resolved(const WindowRatios& ratios, const BootstrapOptions& options) {
@@ -75,7 +72,8 @@ std::string signed_percent(double fraction) {
 }
 
 TableCell cell_of(const Resolved& r) {
-    return interval_cell(r.value, r.block);
+    // Of two blocks an interval is the lower and the higher one: no interval at all.
+    return r.blocks.size() < kFewBlocks ? TableCell(r.value) : interval_cell(r.value, r.block);
 }
 
 Json json_of(const Resolved& r) {

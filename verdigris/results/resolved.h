@@ -12,6 +12,10 @@
 
 namespace verdigris {
 
+/// chosen: of four blocks or fewer a percentile interval is little more than their range, and none
+/// is shown.
+inline constexpr std::size_t kFewBlocks = 5;
+
 struct Resolved {
     double value = 0;  ///< NaN if there is no window, or nothing to divide by
     int windows = 0;

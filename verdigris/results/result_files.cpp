@@ -82,7 +82,7 @@ FileList read_file_list(const fs::path& folder) {
     return list;
 }
 
-Statuses check_file_list(const fs::path& folder) {
+Statuses check_file_list(const fs::path& folder, const std::vector<std::string>& always) {
     Statuses findings;
     const FileList list = read_file_list(folder);
     if (list.empty()) {
@@ -101,10 +101,22 @@ Statuses check_file_list(const fs::path& folder) {
                                 fmt::format("{} is not the file that was delivered", name)});
         }
     }
+    for (const std::string& name : always) {
+        if (!list.contains(name))
+            findings.push_back({"file_list_incomplete", Severity::refusal,
+                                fmt::format("{} is not in {}, though every result of this kind "
+                                            "has it",
+                                            name, kFileList)});
+    }
     std::string first;
     int own = 0;
     for (const std::string& name : files_below(folder)) {
         if (list.contains(name)) continue;
+        if (name.starts_with("tables/") || name.starts_with("figures/")) {
+            findings.push_back({"file_added", Severity::refusal,
+                                fmt::format("{} was not delivered with this result", name)});
+            continue;
+        }
         if (own++ == 0 || name < first) first = name;
     }
     if (own > 0)

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "verdigris/status.h"
 
@@ -25,9 +26,12 @@ void write_file_list(const std::filesystem::path& folder);
 FileList read_file_list(const std::filesystem::path& folder);
 
 /// What differs from the list, one finding each. Refusals: "file_list_missing", "file_missing",
-/// "file_changed"; an info: "file_not_listed", with the first of them. A list vouches against
+/// "file_changed", "file_list_incomplete" where a name in `always` is not listed, "file_added" for
+/// one in tables/ or figures/, where only ours are; an info: "file_not_listed", with the first of
+/// them. A list vouches against
 /// accidents: who changes a file on purpose can change the list. Throws as read_file_list.
-Statuses check_file_list(const std::filesystem::path& folder);
+Statuses check_file_list(const std::filesystem::path& folder,
+                         const std::vector<std::string>& always = {});
 
 /// The first file below `folder`/`entry` that the list does not name (`entry` itself, if it is a
 /// file); empty if there is none.

@@ -41,10 +41,20 @@ TEST(ResultFiles, AreListedAsSha256sumReadsThem) {
     EXPECT_TRUE(check_file_list(folder.path()).empty());
 }
 
+// A line taken out of the list does not make its file somebody's own.
+TEST(ResultFiles, WhatEveryResultHasMustBeListed) {
+    const ScratchFolder folder;
+    write_result(folder.path());
+    EXPECT_TRUE(check_file_list(folder.path(), {"report.html", "tables/errors.csv"}).empty());
+    const std::string text = read_text(folder / kFileList);
+    write_file(folder / kFileList, text.substr(text.find('\n') + 1));
+    EXPECT_EQ(ids(check_file_list(folder.path(), {"report.html"})),
+              (Ids{"file_list_incomplete", "file_not_listed"}));
+}
+
 TEST(ResultFiles, WhatWasChangedRemovedOrAddedIsSeen) {
     const ScratchFolder folder;
     write_result(folder.path());
-    write_file(folder / "tables" / "mine.csv", "3\n");
     write_file(folder / "notes.txt", "mine");
     Statuses found = check_file_list(folder.path());
     ASSERT_EQ(ids(found), Ids{"file_not_listed"});
@@ -57,6 +67,10 @@ TEST(ResultFiles, WhatWasChangedRemovedOrAddedIsSeen) {
     found = check_file_list(folder.path());
     EXPECT_EQ(ids(found), (Ids{"file_changed", "file_missing", "file_not_listed"}));
     EXPECT_EQ(found[1].severity, Severity::refusal);
+    // Among ours nobody's own file is taken for harmless.
+    write_file(folder / "tables" / "mine.csv", "3\n");
+    EXPECT_EQ(ids(check_file_list(folder.path())),
+              (Ids{"file_changed", "file_missing", "file_added", "file_not_listed"}));
     fs::remove(folder / kFileList);
     EXPECT_EQ(ids(check_file_list(folder.path())), Ids{"file_list_missing"});
 }
