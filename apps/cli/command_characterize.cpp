@@ -72,6 +72,7 @@ void run(Session& session, const JudgeArguments& a) {
     session.say(table_plain(characterization_table(table, verdict)));
     for (const std::string& sentence : verdict.sentences) session.say(sentence);
     for (const Status& s : table.notes) session.tell(s);
+    tell_recordings(session, observations);
     session.result(json);
 }
 

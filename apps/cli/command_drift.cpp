@@ -68,6 +68,7 @@ void run(Session& session, const Arguments& a) {
         for (const std::string& sentence : d.sentences) session.say(sentence);
         for (const Status& s : d.notes) session.tell(s);
     }
+    tell_recordings(session, observations);
     session.result(json);
 }
 

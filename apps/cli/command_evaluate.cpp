@@ -55,6 +55,7 @@ void run(Session& session, const Arguments& a) {
     session.say(table_plain(error_table(evaluation)));
     for (const std::string& sentence : verdict_sentences(list)) session.say(sentence);
     for (const Status& s : evaluation.notes) session.tell(s);
+    tell_recordings(session, observations);
     session.result(json);
 }
 

@@ -113,13 +113,17 @@ std::vector<Observation> observe_all(Session& session, const JudgeArguments& a) 
         session.say(fmt::format("observed  {}: {} samples, {} per unit, noise {:.3f} %",
                                 observation.source_name, observation.store->count(),
                                 observation.axis.samples_per_unit, 100 * observation.noise.sigma));
-        for (const Status& s : observation.notes)
-            if (s.severity != Severity::info)
-                session.tell({s.id, Severity::caution,
-                              fmt::format("{}: {}", observation.source_name, s.sentence)});
         observations.push_back(std::move(observation));
     }
     return observations;
+}
+
+void tell_recordings(Session& session, const std::vector<Observation>& observations) {
+    for (const Observation& o : observations)
+        for (const Status& s : o.notes)
+            if (s.severity != Severity::info)
+                session.tell(
+                    {s.id, Severity::caution, fmt::format("{}: {}", o.source_name, s.sentence)});
 }
 
 EvaluationProtocol protocol_for(Session& session, const JudgeArguments& a,

@@ -36,6 +36,9 @@ struct JudgeArguments {
 /// Every sample of each recording, at the size asked for, named after its file.
 std::vector<Observation> observe_all(Session& session, const JudgeArguments& arguments);
 
+/// What is wrong with the recordings, as cautions: for the end, after the results.
+void tell_recordings(Session& session, const std::vector<Observation>& observations);
+
 /// The protocol given, or the paper's where every recording has its 984 samples, else one for short
 /// recordings; then single options. Says which.
 EvaluationProtocol protocol_for(Session& session, const JudgeArguments& arguments,
