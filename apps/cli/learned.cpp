@@ -49,7 +49,7 @@ LearnedForecaster learned_forecaster(const std::string& path, const std::vector<
         notes.push_back({"trained_elsewhere", Severity::caution,
                          fmt::format("this network learned from {}, not from {}: on specimens they "
                                      "have never seen, networks have lost to holding still "
-                                     "(docs/RESULTS.md)",
+                                     "(docs/models/learn.md)",
                                      facts.source_names(), observation.source_name)});
     }
     // Whole units around each horizon; what lies between is interpolated.

@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <functional>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
 namespace verdigris {
 namespace {
@@ -74,7 +73,73 @@ std::vector<std::string> forecasters(const TransferStudy& study) {
     return names;
 }
 
-/// "makes its error 1.40 times as large (1.10 to 1.80)", or that it cannot be told.
+/// A row of a table, a place on an axis: gains of every preset and forecaster in one situation.
+struct GainRow {
+    std::string words;
+    std::function<SeedMean(const std::string& preset, const std::string& forecaster)> gain;
+};
+
+std::vector<GainRow> cell_rows(const TransferStudy& study) {
+    std::vector<GainRow> rows;
+    for (const Cell& c : kCells) {
+        rows.push_back({c.words, [&study, c](const std::string& preset, const std::string& name) {
+                            return cell_gain(study, preset, name, c);
+                        }});
+    }
+    return rows;
+}
+
+std::vector<GainRow> count_rows(const TransferStudy& study) {
+    std::vector<GainRow> rows;
+    for (const int n : study.options.specimens) {
+        rows.push_back({n == 1 ? "1 specimen" : fmt::format("{} specimens", n),
+                        [&study, n](const std::string& preset, const std::string& name) {
+                            return count_gain(study, preset, name, n);
+                        }});
+    }
+    return rows;
+}
+
+/// A column per forecaster, a group per preset.
+void add_gains(const TransferStudy& study, const std::vector<GainRow>& rows, Table& table) {
+    for (const std::string& name : forecasters(study))
+        table.columns.push_back({name, name, Align::right, kGain, true});
+    table.group_header = "preset";
+    for (const std::string& preset : study.options.presets) {
+        RowGroup group{preset, {}};
+        for (const GainRow& r : rows) {
+            TableRow row{r.words};
+            for (const std::string& name : forecasters(study))
+                row.push_back(cell(r.gain(preset, name)));
+            group.rows.push_back(std::move(row));
+        }
+        table.groups.push_back(std::move(group));
+    }
+}
+
+/// A panel per preset, a series per forecaster.
+std::vector<FigurePanel> gain_panels(const TransferStudy& study, const std::vector<GainRow>& rows,
+                                     const std::string& x_label) {
+    std::vector<FigurePanel> panels;
+    for (const std::string& preset : study.options.presets) {
+        FigurePanel panel;
+        panel.title = preset;
+        panel.x.label = x_label;
+        panel.y = {.label = "gain over persistence", .format = kGain};
+        for (const GainRow& r : rows) panel.x.categories.push_back(r.words);
+        for (const std::string& name : forecasters(study)) {
+            FigureSeries series{name, SeriesKind::points, {}};
+            for (std::size_t i = 0; i < rows.size(); ++i)
+                series.points.push_back(point(double(i), rows[i].gain(preset, name)));
+            panel.series.push_back(std::move(series));
+        }
+        panel.references.push_back({"persistence", 0});
+        panels.push_back(std::move(panel));
+    }
+    return panels;
+}
+
+/// "another pose: 1.40 times the error, 1.10 to 1.80", or that it cannot be told from none.
 std::string effect_words(const char* what, const SeedMean& m) {
     if (!m.has_interval())
         return fmt::format("{}: {:.2f} times the error (one seed)", what, std::exp(m.mean));
@@ -134,19 +199,7 @@ Table transfer_cell_table(const TransferStudy& study) {
         "Of forecasters on a recording that differs from the one learned from in what "
         "the column says; mean over seeds with 95 % intervals of Student's t.";
     table.columns = {{"differs", "judged on", Align::left}};
-    for (const std::string& name : forecasters(study))
-        table.columns.push_back({name, name, Align::right, kGain, true});
-    table.group_header = "preset";
-    for (const std::string& preset : study.options.presets) {
-        RowGroup group{preset, {}};
-        for (const Cell& c : kCells) {
-            TableRow row{c.words};
-            for (const std::string& name : forecasters(study))
-                row.push_back(cell(cell_gain(study, preset, name, c)));
-            group.rows.push_back(std::move(row));
-        }
-        table.groups.push_back(std::move(group));
-    }
+    add_gains(study, cell_rows(study), table);
     return table;
 }
 
@@ -159,19 +212,7 @@ Table specimen_count_table(const TransferStudy& study) {
         "many steps of training, on windows of 1 or more specimens; mean over seeds "
         "with 95 % intervals of Student's t.";
     table.columns = {{"specimens", "learned from", Align::left}};
-    for (const std::string& name : forecasters(study))
-        table.columns.push_back({name, name, Align::right, kGain, true});
-    table.group_header = "preset";
-    for (const std::string& preset : study.options.presets) {
-        RowGroup group{preset, {}};
-        for (const int n : study.options.specimens) {
-            TableRow row{n == 1 ? "1 specimen" : fmt::format("{} specimens", n)};
-            for (const std::string& name : forecasters(study))
-                row.push_back(cell(count_gain(study, preset, name, n)));
-            group.rows.push_back(std::move(row));
-        }
-        table.groups.push_back(std::move(group));
-    }
+    add_gains(study, count_rows(study), table);
     return table;
 }
 
@@ -213,21 +254,7 @@ Figure transfer_figure(const TransferStudy& study) {
     figure.id = "factorial";
     figure.title = "One thing changed at a time";
     figure.caption = "Gain over holding still, mean over seeds with 95 % intervals of Student's t.";
-    for (const std::string& preset : study.options.presets) {
-        FigurePanel panel;
-        panel.title = preset;
-        panel.y = {.label = "gain over persistence", .format = kGain};
-        for (const Cell& c : kCells) panel.x.categories.emplace_back(c.words);
-        for (const std::string& name : forecasters(study)) {
-            FigureSeries series{name, SeriesKind::points, {}};
-            for (std::size_t i = 0; i < std::size(kCells); ++i)
-                series.points.push_back(
-                    point(double(i), cell_gain(study, preset, name, kCells[i])));
-            panel.series.push_back(std::move(series));
-        }
-        panel.references.push_back({"persistence", 0});
-        figure.panels.push_back(std::move(panel));
-    }
+    figure.panels = gain_panels(study, cell_rows(study), "");
     return figure;
 }
 
@@ -238,22 +265,7 @@ Figure specimen_count_figure(const TransferStudy& study) {
     figure.caption =
         "Gain over holding still on a specimen never seen, by how many were learned "
         "from, for as many steps; mean over seeds with 95 % intervals.";
-    for (const std::string& preset : study.options.presets) {
-        FigurePanel panel;
-        panel.title = preset;
-        panel.y = {.label = "gain over persistence", .format = kGain};
-        panel.x.label = "specimens learned from";
-        for (const int n : study.options.specimens) panel.x.categories.push_back(std::to_string(n));
-        for (const std::string& name : forecasters(study)) {
-            FigureSeries series{name, SeriesKind::points, {}};
-            double x = 0;
-            for (const int n : study.options.specimens)
-                series.points.push_back(point(x++, count_gain(study, preset, name, n)));
-            panel.series.push_back(std::move(series));
-        }
-        panel.references.push_back({"persistence", 0});
-        figure.panels.push_back(std::move(panel));
-    }
+    figure.panels = gain_panels(study, count_rows(study), "learned from");
     return figure;
 }
 
