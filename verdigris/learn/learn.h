@@ -42,8 +42,9 @@ void check_network_config(const NetworkConfig& config);
 enum class Device { cpu, cuda };
 /// Throws Error{usage} for another name; Error{failed} for "cuda" where there is none.
 Device device_from(std::string_view name);
-/// For networks alone: libtorch's own default is half of the cores. At least 1.
-void set_network_threads(int threads);
+/// Of the whole process: threads (at least 1) for libtorch, whose own default is half of the cores,
+/// and for OpenBLAS; and memory that networks free is kept for their next step.
+void use_cpu_for_networks(int threads);
 
 /// A network and its weights. Shared by forecasters; never changes once they have it.
 class Network {

@@ -80,7 +80,7 @@ class Trainer {
                   learned_size(sources.front().observation->width(),
                                sources.front().observation->height())} {
         for (const TrainingSource& source : sources) add(source);
-        set_network_threads(threads_);
+        use_cpu_for_networks(threads_);
         network_ = std::make_shared<Network>(config_, options.seed);
         network_->move_to(options.device);
         optimizer_ = make_optimizer(module(), options.learning_rate, options.weight_decay);

@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(, Training, ::testing::ValuesIn(kNetworkKinds),
 
 // They can learn: one window, to 1 % of what holding still costs.
 TEST_P(Training, OverfitsOneWindow) {
-    set_network_threads(1);
+    use_cpu_for_networks(1);
     const Observation o = changing_recording(16, 60);
     const EvaluationProtocol protocol = small_protocol();
     const TrainingSet set(protocol, o, {0, 40}, {});
