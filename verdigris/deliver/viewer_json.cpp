@@ -93,13 +93,11 @@ Json law_json(const Trajectory& trajectory, PictureSize extent, Slots& slots,
     if (trajectory.law.order == 2) {
         pending.push_back({"curvature", slots.add(color_blob(trajectory.curvature, extent))});
     }
-    return {{"kind", "law"},
-            {"order", trajectory.law.order},
-            {"context", trajectory.law.context},
-            {"clamp", trajectory.clamp},
-            {"base", nullptr},
-            {"rate", nullptr},
-            {"curvature", nullptr}};
+    Json nodes;  // null for a polynomial
+    for (const LawNode& n : trajectory.law.nodes) nodes.push_back({n.horizon, n.phi, n.phi2});
+    return {{"kind", "law"},   {"order", trajectory.law.order}, {"context", trajectory.law.context},
+            {"nodes", nodes},  {"clamp", trajectory.clamp},     {"base", nullptr},
+            {"rate", nullptr}, {"curvature", nullptr}};
 }
 
 Json scalars_json(const MaterialOptions& o, const MaterialRecipe& recipe) {

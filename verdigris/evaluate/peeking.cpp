@@ -18,6 +18,7 @@ Context context_at(const EvaluationProtocol& protocol, const Observation& observ
     Context context;
     for (const int s : kept) context.frames.push_back(observation.store->image(s));
     if (protocol.area == EvaluatedArea::specimen) context.specimen = observation.specimen.clone();
+    context.backdrop = backdrop_of(observation);
     context.sigma = observation.noise.sigma;
     context.tau = protocol.tau.value_or(observation.noise.tau);
     return context;

@@ -106,6 +106,8 @@ void WindowScorer::context_of(int start, WindowScratch& scratch) const {
         }
     }
     if (!context.specimen.same_size(area_mask_)) context.specimen = area_mask_.clone();
+    if (!context.backdrop.same_size(observation_.specimen))
+        context.backdrop = backdrop_of(observation_);
     held_.clipped(samples, protocol_.context, context.clipped);
     context.sigma = observation_.noise.sigma;
     context.tau = tau_;

@@ -8,6 +8,7 @@
 
 #include "verdigris/error.h"
 #include "verdigris/forecast/backtest.h"
+#include "verdigris/forecast/band_trend.h"
 #include "verdigris/forecast/context_pixels.h"
 #include "verdigris/forecast/guards.h"
 
@@ -89,7 +90,7 @@ Forecaster automatic(const ChooseOptions& options) {
 }
 
 std::vector<std::string> forecaster_names() {
-    std::vector<std::string> names{"auto", "persistence", "affinergb"};
+    std::vector<std::string> names{"auto", "bandtrend", "persistence", "affinergb"};
     for (AffineFamily family : kFamilies) {
         for (int order : {1, 2}) {
             names.push_back(fmt::format("affinergb-{}-{}", to_string(family), order));
@@ -101,6 +102,7 @@ std::vector<std::string> forecaster_names() {
 Forecaster forecaster_by_name(const std::string& name, const ChooseOptions& options) {
     if (name == "auto") return automatic(options);
     if (name == "persistence") return persistence();
+    if (name == "bandtrend") return band_trend({.clamp = options.clamp});
     AffineOptions affine{AffineFamily::full, 1, options.ridge_k, options.pixels, options.clamp};
     if (name == "affinergb") return affinergb(affine);
     for (AffineFamily family : kFamilies) {

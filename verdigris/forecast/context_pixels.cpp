@@ -45,7 +45,7 @@ void check_context(const Context& context) {
             throw Error(ErrorCode::usage, "the observed frames differ in size");
         }
     }
-    for (const Mask* mask : {&context.specimen, &context.clipped}) {
+    for (const Mask* mask : {&context.specimen, &context.clipped, &context.backdrop}) {
         if (!mask->empty() && !mask->same_size(first)) {
             throw Error(ErrorCode::usage, "the masks and the observed frames differ in size");
         }

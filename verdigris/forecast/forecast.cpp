@@ -78,6 +78,13 @@ Mask clipped_in(const std::vector<Image<SrgbF>>& frames) {
 
 }  // namespace
 
+Mask backdrop_of(const Observation& observation) {
+    if (observation.specimen.empty()) return {};
+    Mask backdrop = observation.specimen.clone();
+    for (std::uint8_t& v : backdrop.pixels()) v = v ? 0 : kInside;
+    return backdrop;
+}
+
 Context context_from(const Observation& observation, int length) {
     if (length < 1) throw Error(ErrorCode::usage, "a context has at least one frame");
     if (!observation.store || observation.store->count() < 1) {

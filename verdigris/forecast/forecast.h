@@ -22,6 +22,7 @@ struct Context {
     std::vector<Image<SrgbF>> frames;  ///< all of one size
     Mask specimen;                     ///< empty: every pixel
     Mask clipped;                      ///< empty: none. Never steers a fit, never moves
+    Mask backdrop;                     ///< empty: unknown. What changes here is the light
     double sigma = 0;                  ///< noise of one frame, per channel
     double tau = 0;                    ///< dead-zone on the channel mean of |difference|
 
@@ -30,12 +31,24 @@ struct Context {
 
 /// The last `length` unit steps of an observation (all there are, if fewer).
 Context context_from(const Observation& observation, int length);
+/// What an observation shows that is not its specimen. Empty without a specimen.
+Mask backdrop_of(const Observation& observation);
+
+/// Values of a law that is no polynomial.
+struct LawNode {
+    double horizon = 0, phi = 0, phi2 = 0;
+    bool operator==(const LawNode&) const = default;
+};
 
 /// The scalar part of a trajectory: phi(h) and phi2(h), with phi(0) = phi2(0) = 0.
-/// order 0: both 0. order 1: phi = h. order 2: also phi2 = (n-1+h)^2 - (n-1)^2.
+/// order 0: both 0. order 1: phi = h. order 2: also phi2 = (n-1+h)^2 - (n-1)^2; but with nodes,
+/// whose horizons increase from above 0, both are linear from 0 to and between them and held
+/// beyond.
 struct TimeLaw {
     int order = 1;
-    int context = 0;  ///< n
+    int context = 0;               ///< n
+    std::vector<LawNode> nodes{};  ///< only at order 2
+    bool tabulated() const { return !nodes.empty(); }
     double phi(double horizon) const;
     double phi2(double horizon) const;
 };
@@ -48,7 +61,8 @@ struct Trajectory {
     Image<SrgbF> curvature;  ///< empty unless law.order == 2
     TimeLaw law;
     /// Freeze each pixel's drift at the first horizon where any channel would leave [0, 1]: the
-    /// paper's suggested fix, hue-preserving. Off: values may leave the range.
+    /// paper's suggested fix, hue-preserving. A law with nodes is instead shortened towards the
+    /// base until it is inside. Off: values may leave the range.
     bool clamp = true;
 };
 

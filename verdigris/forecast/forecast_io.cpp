@@ -101,6 +101,29 @@ Statuses guards_from(const Json& json) {
     return out;
 }
 
+Json law_nodes_json(const TimeLaw& law) {
+    Json out = Json::array();
+    for (const LawNode& n : law.nodes) out.push_back({n.horizon, n.phi, n.phi2});
+    return out;
+}
+
+/// [[horizon, phi, phi2], ...], of forecasts written before there were any: none.
+std::vector<LawNode> law_nodes_from(const Json& json, const fs::path& manifest) {
+    std::vector<LawNode> nodes;
+    for (const Json& n : json.value("law_nodes", Json::array())) {
+        const LawNode node{n.at(0), n.at(1), n.at(2)};
+        const bool increases = node.horizon > (nodes.empty() ? 0 : nodes.back().horizon);
+        if (!increases || !std::isfinite(node.horizon) || !std::isfinite(node.phi) ||
+            !std::isfinite(node.phi2) || n.size() != 3) {
+            throw Error(ErrorCode::bad_input,
+                        "has a law whose nodes are not increasing horizons with two numbers each",
+                        manifest.string());
+        }
+        nodes.push_back(node);
+    }
+    return nodes;
+}
+
 Json manifest_of(const SavedForecast& saved) {
     const Forecast& f = saved.forecast;
     return {{"format", kFormat},
@@ -109,6 +132,7 @@ Json manifest_of(const SavedForecast& saved) {
             {"kind", f.is_trajectory() ? "law" : "frames"},
             {"order", f.trajectory.law.order},
             {"law_context", f.trajectory.law.context},
+            {"law_nodes", law_nodes_json(f.trajectory.law)},
             {"clamp", f.trajectory.clamp},
             {"stack_horizons", f.stack.horizons},
             {"context_length", f.context_length},
@@ -148,10 +172,15 @@ Mask read_mask(const fs::path& path, const Image<SrgbF>& like) {
 }
 
 void read_law(const Json& json, const fs::path& folder, Trajectory& trajectory) {
-    trajectory.law = {json.at("order"), json.at("law_context")};
+    trajectory.law = {json.at("order"), json.at("law_context"),
+                      law_nodes_from(json, folder / kManifest)};
     trajectory.clamp = json.at("clamp");
     if (trajectory.law.order < 0 || trajectory.law.order > 2) {
         throw Error(ErrorCode::bad_input, "has an order that is not 0, 1 or 2",
+                    (folder / kManifest).string());
+    }
+    if (trajectory.law.tabulated() && trajectory.law.order != 2) {
+        throw Error(ErrorCode::bad_input, "has a law with nodes whose order is not 2",
                     (folder / kManifest).string());
     }
     trajectory.rate = read_one(folder / "rate.npy");

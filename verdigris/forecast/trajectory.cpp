@@ -47,6 +47,18 @@ const float* floats(const SrgbF* pixels) {
     return reinterpret_cast<const float*>(pixels);
 }
 
+double between_nodes(const std::vector<LawNode>& nodes, double horizon, double LawNode::*value) {
+    LawNode before;
+    for (const LawNode& node : nodes) {
+        if (horizon <= node.horizon) {
+            const double share = (horizon - before.horizon) / (node.horizon - before.horizon);
+            return before.*value + share * (node.*value - before.*value);
+        }
+        before = node;
+    }
+    return before.*value;
+}
+
 bool outside(float v, float tolerance) {
     return !(v >= -tolerance && v <= 1 + tolerance);
 }
@@ -54,10 +66,12 @@ bool outside(float v, float tolerance) {
 }  // namespace
 
 double TimeLaw::phi(double horizon) const {
+    if (tabulated()) return between_nodes(nodes, horizon, &LawNode::phi);
     return order >= 1 ? horizon : 0;
 }
 
 double TimeLaw::phi2(double horizon) const {
+    if (tabulated()) return between_nodes(nodes, horizon, &LawNode::phi2);
     const double m = context - 1;
     return order >= 2 ? horizon * (horizon + 2 * m) : 0;  // (m + h)^2 - m^2
 }
@@ -76,7 +90,12 @@ void check_trajectory(const Trajectory& trajectory, double horizon) {
 
 TrajectoryTime trajectory_time(const Trajectory& trajectory, double horizon) {
     const int order = horizon > 0 ? trajectory.law.order : 0;
-    return {float(horizon), float(2 * (trajectory.law.context - 1)), order, trajectory.clamp};
+    TrajectoryTime time{float(horizon), float(2 * (trajectory.law.context - 1)), order,
+                        trajectory.clamp};
+    time.tabulated = trajectory.law.tabulated();
+    time.phi = float(trajectory.law.phi(horizon));
+    time.phi2 = float(trajectory.law.phi2(horizon));
+    return time;
 }
 
 TrajectoryRow trajectory_row(const Trajectory& trajectory, int y) {

@@ -109,6 +109,21 @@ HWY_INLINE RgbOf<D> frame_at(D d, const TrajectoryRow& row, const TrajectoryTime
         out.r = hn::MulAdd(h, rate.r, base.r);
         out.g = hn::MulAdd(h, rate.g, base.g);
         out.b = hn::MulAdd(h, rate.b, base.b);
+    } else if (time.tabulated) {
+        const RgbOf<D> curvature = load_rgb(d, row.curvature + 3 * x);
+        const V phi = hn::Set(d, time.phi), phi2 = hn::Set(d, time.phi2);
+        const RgbOf<D> change{hn::MulAdd(phi2, curvature.r, hn::Mul(phi, rate.r)),
+                              hn::MulAdd(phi2, curvature.g, hn::Mul(phi, rate.g)),
+                              hn::MulAdd(phi2, curvature.b, hn::Mul(phi, rate.b))};
+        V share = hn::Set(d, 1.0f);
+        if (time.clamp) {
+            share = hn::Min(share, hn::Min(linear_exit(d, base.r, change.r),
+                                           hn::Min(linear_exit(d, base.g, change.g),
+                                                   linear_exit(d, base.b, change.b))));
+        }
+        out.r = hn::MulAdd(share, change.r, base.r);
+        out.g = hn::MulAdd(share, change.g, base.g);
+        out.b = hn::MulAdd(share, change.b, base.b);
     } else {
         const RgbOf<D> curvature = load_rgb(d, row.curvature + 3 * x);
         const V two_m = hn::Set(d, time.two_m);

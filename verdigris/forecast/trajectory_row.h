@@ -17,6 +17,8 @@ struct TrajectoryTime {
     float two_m = 0;  ///< 2 (n - 1): phi2(h) = h^2 + 2 (n - 1) h
     int order = 0;    ///< 0 also stands for "nothing moves yet": horizon 0
     bool clamp = true;
+    bool tabulated = false;  ///< frame = base + phi rate + phi2 curvature, as they are here
+    float phi = 0, phi2 = 0;
 };
 
 TrajectoryTime trajectory_time(const Trajectory& trajectory, double horizon);

@@ -32,6 +32,19 @@ function drawable(renderer: THREE.WebGLRenderer):
   return { float: type, map: type };
 }
 
+/** phi and phi2 of a law with nodes: linear from 0 to and between them, held beyond. */
+export function lawAt(nodes: readonly [number, number, number][], age: number): [number, number] {
+  let before: readonly [number, number, number] = [0, 0, 0];
+  for (const node of nodes) {
+    if (age <= node[0]) {
+      const share = (age - before[0]) / (node[0] - before[0]);
+      return [before[1] + share * (node[1] - before[1]), before[2] + share * (node[2] - before[2])];
+    }
+    before = node;
+  }
+  return [before[1], before[2]];
+}
+
 export class Bake {
   /** What a MeshStandardMaterial reads. */
   readonly albedo: THREE.WebGLRenderTarget;
@@ -84,6 +97,8 @@ export class Bake {
       u_reach: { value: reach },
       u_order: { value: trajectory.kind === "law" ? trajectory.order : 0 },
       u_clamp: { value: trajectory.kind === "law" && trajectory.clamp },
+      u_tabulated: { value: trajectory.kind === "law" && trajectory.nodes !== null },
+      u_phi: { value: new THREE.Vector2() },
     });
     const mix = () => ({ u_from: { value: null }, u_to: { value: null }, u_mix: { value: 0 } });
     this.stack = pass(shaders.stackFrame, { ...covered, ...mix() });
@@ -190,6 +205,10 @@ export class Bake {
     const between = age < 0 ? this.specimen.observedAt(age) : this.specimen.framesAt(age);
     if (!between) {
       this.law.uniforms.u_horizon!.value = Math.max(age, 0);
+      const law = this.specimen.document.trajectory;
+      if (law.kind === "law" && law.nodes) {
+        (this.law.uniforms.u_phi!.value as THREE.Vector2).fromArray(lawAt(law.nodes, Math.max(age, 0)));
+      }
       return this.law;
     }
     // Where the start of the recording is the clean state, observed frames carry coverage too.

@@ -29,6 +29,8 @@ export const lawFrame = `${header}
 uniform sampler2D u_base, u_rate, u_curvature;
 uniform float u_horizon, u_reach;   // reach: n - 1
 uniform int u_order;
+uniform bool u_tabulated;
+uniform vec2 u_phi;                 // phi and phi2 of a law with nodes
 uniform bool u_clamp;
 out vec4 result;
 ${coverage}
@@ -59,7 +61,17 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec3 base = texelFetch(u_base, at, 0).rgb;
   vec3 x = base;
-  if (u_order > 0) {
+  if (u_tabulated) {
+    vec3 change = u_phi.x * texelFetch(u_rate, at, 0).rgb + u_phi.y * texelFetch(u_curvature, at, 0).rgb;
+    float share = 1.0;
+    if (u_clamp) {
+      for (int k = 0; k < 3; k++) {
+        share = min(share, first_crossing(base[k], change[k], 0.0, 0.0));
+        share = min(share, first_crossing(base[k], change[k], 0.0, 1.0));
+      }
+    }
+    x = base + share * change;
+  } else if (u_order > 0) {
     vec3 rate = texelFetch(u_rate, at, 0).rgb;
     vec3 curve = u_order > 1 ? texelFetch(u_curvature, at, 0).rgb : vec3(0.0);
     vec3 slope = rate + 2.0 * u_reach * curve;

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The light of each frame, read off what lies behind the specimen and does not age (internal).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "verdigris/forecast/forecast.h"
+
+namespace verdigris {
+
+/// Per frame and channel: how much brighter, in linear light, the last frame shows the backdrop
+/// (pixels outside the specimen, not clipped): the median over pixels, which a moving minority does
+/// not shift. All 1 where there is no backdrop of 200 pixels to see.
+std::vector<std::array<double, 3>> backdrop_light(const Context& context);
+
+/// `frame` with its linear light multiplied by `gain`.
+Image<SrgbF> relit(const Image<SrgbF>& frame, const std::array<double, 3>& gain);
+
+}  // namespace verdigris

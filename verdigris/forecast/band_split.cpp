@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/band_split.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace verdigris {
+
+std::vector<int> band_sigmas(int width, int height) {
+    std::vector<int> sigmas;
+    for (int sigma = 1; sigma <= std::max(width, height) / 16; sigma *= 2) sigmas.push_back(sigma);
+    if (sigmas.empty()) sigmas.push_back(1);
+    std::reverse(sigmas.begin(), sigmas.end());
+    return sigmas;
+}
+
+MaskedGaussian::MaskedGaussian(const Mask& inside, int sigma)
+    : inside_(inside),
+      width_(inside.width()),
+      height_(inside.height()),
+      cell_(sigma >= 4 ? sigma / 2 : 1),
+      columns_((width_ + cell_ - 1) / cell_),
+      rows_((height_ + cell_ - 1) / cell_) {
+    const double s = double(sigma) / cell_;
+    double sum = 0;
+    std::vector<double> taps;
+    for (int i = 0; i <= int(std::ceil(3 * s)); ++i) {
+        taps.push_back(std::exp(-0.5 * (i / s) * (i / s)));
+        sum += (i == 0 ? 1 : 2) * taps.back();
+    }
+    for (const double t : taps) taps_.push_back(float(t / sum));
+    Field ones(inside.pixel_count());
+    std::transform(inside.pixels().begin(), inside.pixels().end(), ones.begin(),
+                   [](std::uint8_t v) { return v ? 1.0f : 0.0f; });
+    sums(ones, weight_);
+    blur(weight_);
+}
+
+void MaskedGaussian::sums(const Field& field, Field& cells) const {
+    if (cell_ == 1) {
+        cells = field;
+        return;
+    }
+    cells.assign(std::size_t(columns_) * std::size_t(rows_), 0);
+    for (int y = 0; y < height_; ++y) {
+        const float* from = field.data() + std::size_t(y) * std::size_t(width_);
+        float* to = cells.data() + std::size_t(y / cell_) * std::size_t(columns_);
+        for (int column = 0, x = 0; column < columns_; ++column) {
+            float sum = 0;
+            for (const int end = std::min(x + cell_, width_); x < end; ++x) sum += from[x];
+            to[column] += sum;
+        }
+    }
+}
+
+void MaskedGaussian::blur(Field& cells) const {
+    const int reach = int(taps_.size()) - 1;
+    const auto columns = std::size_t(columns_);
+    Field across(cells.size());
+    for (int y = 0; y < rows_; ++y) {
+        const float* from = cells.data() + std::size_t(y) * columns;
+        float* to = across.data() + std::size_t(y) * columns;
+        for (int x = 0; x < columns_; ++x) to[x] = taps_[0] * from[x];
+        for (int i = 1; i <= std::min(reach, columns_ - 1); ++i) {
+            const float tap = taps_[std::size_t(i)];
+            for (int x = i; x < columns_; ++x) to[x] += tap * from[x - i];
+            for (int x = 0; x < columns_ - i; ++x) to[x] += tap * from[x + i];
+        }
+    }
+    for (int y = 0; y < rows_; ++y) {
+        float* to = cells.data() + std::size_t(y) * columns;
+        const float* center = across.data() + std::size_t(y) * columns;
+        for (int x = 0; x < columns_; ++x) to[x] = taps_[0] * center[x];
+        for (int i = 1; i <= reach; ++i) {
+            const float tap = taps_[std::size_t(i)];
+            for (const int at : {y - i, y + i}) {
+                if (at < 0 || at >= rows_) continue;
+                const float* from = across.data() + std::size_t(at) * columns;
+                for (int x = 0; x < columns_; ++x) to[x] += tap * from[x];
+            }
+        }
+    }
+}
+
+void MaskedGaussian::mean(const Field& field, Field& out) const {
+    Field cells;
+    sums(field, cells);
+    blur(cells);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        cells[i] = weight_[i] > 1e-6f ? cells[i] / weight_[i] : 0;
+    out.resize(field.size());
+    const auto inside = inside_.pixels();
+    if (cell_ == 1) {
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = inside[i] ? cells[i] : 0;
+        return;
+    }
+    // Between the centers of cells.
+    struct Between {
+        int from, to;
+        float share;
+    };
+    const auto between = [&](int at, int count) -> Between {
+        const float position = (float(at) + 0.5f) / float(cell_) - 0.5f;
+        const int from = std::clamp(int(std::floor(position)), 0, count - 1);
+        return {from, std::min(from + 1, count - 1),
+                std::clamp(position - float(from), 0.0f, 1.0f)};
+    };
+    std::vector<Between> across;
+    for (int x = 0; x < width_; ++x) across.push_back(between(x, columns_));
+    for (int y = 0; y < height_; ++y) {
+        const Between down = between(y, rows_);
+        const float* above = cells.data() + std::size_t(down.from) * std::size_t(columns_);
+        const float* below = cells.data() + std::size_t(down.to) * std::size_t(columns_);
+        const std::size_t row = std::size_t(y) * std::size_t(width_);
+        for (int x = 0; x < width_; ++x) {
+            if (inside[row + std::size_t(x)] == 0) {
+                out[row + std::size_t(x)] = 0;
+                continue;
+            }
+            const Between& b = across[std::size_t(x)];
+            const float top = above[b.from] + b.share * (above[b.to] - above[b.from]);
+            const float bottom = below[b.from] + b.share * (below[b.to] - below[b.from]);
+            out[row + std::size_t(x)] = top + down.share * (bottom - top);
+        }
+    }
+}
+
+}  // namespace verdigris

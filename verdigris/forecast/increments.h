@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The changes from frame to frame of a context, as fields over the specimen, and the parts they
+// are split into (internal).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "verdigris/forecast/band_split.h"
+#include "verdigris/forecast/forecast.h"
+
+namespace verdigris {
+
+using ColorField = std::array<Field, 3>;     ///< red, green, blue
+using Increments = std::vector<ColorField>;  ///< frame i + 1 less frame i; 0 outside of what moves
+
+/// Under the light of the last frame, by the backdrop.
+Increments increments_of(const Context& context, const Mask& moving);
+
+/// Of each increment, its least-squares fit by an affine function of the mean color. The ridge is
+/// three times the variance of the noise in that mean.
+Increments affine_part(const Context& context, const Mask& moving, const Increments& increments);
+/// Under a Gaussian.
+void smooth_part(const Increments& increments, const Mask& moving, int sigma, Increments& out);
+void subtract(const Increments& part, Increments& from);
+
+/// Mean over what is not 0 outside and channels of the products of increments i and j; in double,
+/// same bytes at any number of threads.
+Eigen::MatrixXd gram_of(const Increments& increments);
+ColorField combined(const Increments& increments, const Eigen::RowVectorXd& weights);
+Image<SrgbF> image_of(const std::vector<const ColorField*>& planes,
+                      const Eigen::RowVectorXd& weights, const Image<SrgbF>& like);
+/// Mean over channels and pixels inside.
+double mean_square_difference(const Image<SrgbF>& a, const Image<SrgbF>& b, const Mask& inside);
+
+}  // namespace verdigris

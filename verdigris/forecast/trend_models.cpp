@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/trend_models.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace verdigris {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The grid. chosen: coarse steps over all that is plausible; finer ones change forecasts by less
+// than a hundredth (docs/models/bandtrend.md has the sensitivity).
+struct Slowing {
+    double kappa, prior;
+};
+constexpr Slowing kSlowing[] = {{0, .15}, {.02, .20}, {.05, .25}, {.1, .20}, {.2, .12}, {.5, .08}};
+constexpr double kWandering[] = {0, .3, .6, .8, .92, .98, 1};
+constexpr double kBending[] = {.5, .75, .85, .92, .96, .99};
+constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
+constexpr double kFloor = 1e-4;          // variance that no model explains, of V
+constexpr double kNothingButNoise = .1;  // prior of frames that are one level and noise
+constexpr double kWalk = .1;             // and of a level that walks at random
+constexpr double kEventPrior = .02;      // of a step or an outlier, at each place it can have
+constexpr double kEventSize[] = {10, 1e3, 1e5};  // variance, of V
+
+double covariance_at(bool bending, double rho, double lag) {
+    const double fall = lag == 0 ? 1 : std::pow(rho, lag);
+    return bending ? (1 - std::log(rho) * lag) * fall : fall;
+}
+
+/// Of differences of white noise of variance 1.
+MatrixXd noise_of_increments(int q) {
+    MatrixXd t = 2 * MatrixXd::Identity(q, q);
+    for (int i = 0; i + 1 < q; ++i) t(i, i + 1) = t(i + 1, i) = -1;
+    return t;
+}
+
+}  // namespace
+
+TrendModels::TrendModels(int increments) : increments_(increments) {
+    const int q = increments, units = int(kTrendUnits.size());
+    for (int i = 0; i < q; ++i) events_.push_back({VectorXd::Unit(q, i), i + 1, false});
+    for (int i = 1; i < q; ++i)
+        events_.push_back({VectorXd::Unit(q, i - 1) - VectorXd::Unit(q, i), i, true});
+
+    const MatrixXd noise = noise_of_increments(q);
+    const auto add_family = [&](bool bending, double rho, const Slowing& slowing, double prior) {
+        MatrixXd drift(q, q), future = MatrixXd::Zero(units, q);
+        const auto size = [&](double back) { return std::exp(slowing.kappa * back); };
+        for (int i = 0; i < q; ++i) {
+            for (int j = 0; j < q; ++j) {
+                drift(i, j) = size(q - 1 - i) * size(q - 1 - j) *
+                              covariance_at(bending, rho, std::abs(i - j));
+            }
+            // Summed unit by unit up to each of kTrendUnits.
+            double sum = 0;
+            for (int u = 0, ahead = 1; u < units; ++u) {
+                for (; ahead <= int(kTrendUnits[std::size_t(u)]); ++ahead)
+                    sum += size(q - 1 - i) * size(-ahead) *
+                           covariance_at(bending, rho, q - 1 - i + ahead);
+                future(u, i) = sum;
+            }
+        }
+        for (const double eta : kNoise) {
+            MatrixXd with_future = future;
+            with_future.col(q - 1).array() -= eta;  // the last frame's noise goes away again
+            add(drift + eta * noise + kFloor * MatrixXd::Identity(q, q), with_future,
+                prior * slowing.prior / double(std::size(kNoise)));
+        }
+    };
+    const double share = 1.0 / double(std::size(kWandering) + std::size(kBending));
+    for (const Slowing& slowing : kSlowing) {
+        for (const double rho : kWandering) add_family(false, rho, slowing, share);
+        for (const double rho : kBending) add_family(true, rho, slowing, share);
+    }
+    MatrixXd held = MatrixXd::Zero(units, q);
+    add(MatrixXd::Identity(q, q), held, kWalk);
+    held.col(q - 1).setConstant(-1);
+    add(noise + 10 * kFloor * MatrixXd::Identity(q, q), held, kNothingButNoise);
+}
+
+void TrendModels::add(const MatrixXd& covariance, const MatrixXd& with_future, double prior) {
+    const Eigen::LLT<MatrixXd> cholesky(covariance);
+    Model m;
+    m.precision = cholesky.solve(MatrixXd::Identity(increments_, increments_));
+    m.log_determinant = 2 * cholesky.matrixLLT().diagonal().array().log().sum();
+    m.weights = with_future * m.precision;
+    m.log_prior = std::log(prior);
+    m.at_events.resize(increments_, Eigen::Index(events_.size()));
+    m.of_events.resize(Eigen::Index(events_.size()));
+    for (std::size_t e = 0; e < events_.size(); ++e) {
+        m.at_events.col(Eigen::Index(e)) = m.precision * events_[e].direction;
+        m.of_events[Eigen::Index(e)] = events_[e].direction.dot(m.at_events.col(Eigen::Index(e)));
+    }
+    models_.push_back(std::move(m));
+}
+
+Trend TrendModels::trend(const MatrixXd& gram, double count) const {
+    const double q = increments_, scale = std::max(gram.trace() / q, 1e-30);
+    const MatrixXd g = gram / scale;  // no underflow, whatever the unit
+    const std::size_t sizes = std::size(kEventSize), events = events_.size();
+    // Of a model, and of it with each event at each size (Sherman and Morrison 1950).
+    std::vector<double> evidence;
+    evidence.reserve(models_.size() * (1 + events * sizes));
+    const auto log_evidence = [&](double variance, double log_determinant) {
+        return -0.5 * count * (q * std::log(std::max(variance, 1e-12)) + log_determinant);
+    };
+    for (const Model& m : models_) {
+        const double all = (m.precision.array() * g.array()).sum();
+        evidence.push_back(log_evidence(all / q, m.log_determinant) + m.log_prior);
+        for (std::size_t e = 0; e < events; ++e) {
+            const auto at = m.at_events.col(Eigen::Index(e));
+            const double seen = at.dot(g * at), of = m.of_events[Eigen::Index(e)];
+            for (const double tau : kEventSize) {
+                const double denominator = 1 + tau * of;
+                evidence.push_back(log_evidence((all - tau * seen / denominator) / q,
+                                                m.log_determinant + std::log(denominator)) +
+                                   m.log_prior + std::log(kEventPrior / double(sizes)));
+            }
+        }
+    }
+    const double best = *std::max_element(evidence.begin(), evidence.end());
+    double total = 0;
+    for (double& e : evidence) total += e = std::exp(e - best);
+
+    Trend out;
+    out.weights = MatrixXd::Zero(Eigen::Index(kTrendUnits.size()), increments_);
+    std::vector<double> of_event(events, 0);
+    std::size_t k = 0;
+    for (const Model& m : models_) {
+        double of_model = evidence[k++] / total;
+        for (std::size_t e = 0; e < events; ++e) {
+            for (const double tau : kEventSize) {
+                const double p = evidence[k++] / total;
+                if (p < 1e-9) continue;
+                of_model += p;
+                of_event[e] += p;
+                const auto column = Eigen::Index(e);
+                out.weights -= (p * tau / (1 + tau * m.of_events[column])) *
+                               (m.weights * events_[e].direction) *
+                               m.at_events.col(column).transpose();
+            }
+        }
+        out.weights += of_model * m.weights;
+    }
+    for (std::size_t e = 0; e < events; ++e) out.event += of_event[e];
+    const auto likeliest = std::max_element(of_event.begin(), of_event.end()) - of_event.begin();
+    out.event_frame = events_[std::size_t(likeliest)].frame;
+    out.outlier = events_[std::size_t(likeliest)].outlier;
+    return out;
+}
+
+}  // namespace verdigris

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// How a component of the change went on from frame to frame, and how it will: a grid of Gaussian
+// models of its increments, averaged by what the context says of each (internal).
+// Model: docs/models/bandtrend.md
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace verdigris {
+
+/// Units ahead for which a trend is worked out: linear in between, held beyond. chosen: dense where
+/// forecasts are judged.
+inline constexpr std::array kTrendUnits{1.,  2.,  3.,  4.,  5.,  6.,  7.,  8.,  9.,  10.,
+                                        12., 15., 20., 25., 30., 40., 50., 65., 85., 100.};
+
+/// What a component does next, as a combination of its increments.
+struct Trend {
+    /// [kTrendUnits x increments]: the change from the last frame on.
+    Eigen::MatrixXd weights;
+    double event = 0;      ///< probability of a step or an outlier among the frames
+    int event_frame = 0;   ///< of the likeliest: the first frame after a step, or the outlier
+    bool outlier = false;  ///< which of the two it is
+};
+
+/// For a number of increments (frames - 1), which is all that the grid depends on. Increments
+/// d_1 .. d_q of one component are Gaussian with covariance V (A K A + eta T):
+///   K  how they hang together: rho^lag (a drift that wanders), or (1 + a lag) e^(-a lag)
+///      (Matern 3/2: a drift that bends smoothly)
+///   A  how they slow down: e^(-kappa age)
+///   T  white noise of the frames, whose differences are 2 on the diagonal and -1 beside it
+/// and, in variants of each, one step (an increment of any size) or one outlying frame. V is
+/// fitted. Building costs O(models q^3), once; `trend` O(models q^3).
+class TrendModels {
+  public:
+    explicit TrendModels(int increments);  ///< at least 1
+    int increments() const { return increments_; }
+
+    /// `gram`: mean over pixels and channels of d_i d_j. `count`: how many independent pixels
+    /// stand behind it; the evidence of each model counts that many times.
+    Trend trend(const Eigen::MatrixXd& gram, double count) const;
+
+  private:
+    struct Model {
+        Eigen::MatrixXd precision;  ///< of the increments at V = 1
+        Eigen::MatrixXd weights;    ///< [kTrendUnits x increments]
+        double log_determinant = 0;
+        double log_prior = 0;
+        Eigen::MatrixXd at_events;  ///< precision * event, a column per event
+        Eigen::VectorXd of_events;  ///< event' * precision * event
+    };
+    struct Event {
+        Eigen::VectorXd direction;
+        int frame = 0;
+        bool outlier = false;
+    };
+    void add(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& with_future, double prior);
+
+    int increments_ = 0;
+    std::vector<Event> events_;
+    std::vector<Model> models_;
+};
+
+}  // namespace verdigris
