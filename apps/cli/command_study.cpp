@@ -83,6 +83,8 @@ void add_study(CLI::App& app, Session& session) {
     command->add_option("--size", a->size, "Side of the samples (64)");
     command->add_flag("--force", session.force, "Write into a folder with other files");
     session.add_options(*command);
+    command->get_option("--threads")
+        ->description("Threads to use (0: all). Another number, other last bits");
     command->callback([a, &session] { session.action = [a](Session& s) { run_transfer(s, *a); }; });
 }
 

@@ -57,6 +57,7 @@ void add_susceptibility(CLI::App& app, Session& session) {
         "What a trained patinanet believes of surfaces, and whether it transfers");
     command->add_option("RUN", a->run, "A folder that `train` made, or a checkpoint")->required();
     a->judge.add(*command, true);
+    command->get_option("RECORDING")->description("Videos, or folders of photographs");
     command->add_flag("--force", session.force, "Write into a folder with other files");
     session.add_options(*command);
     command->callback([a, &session] { session.action = [a](Session& s) { run(s, *a); }; });

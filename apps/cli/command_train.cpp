@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 
 #include <cmath>
+#include <sstream>
+#include <utility>
 
 #include "judged.h"
 #include "learned_commands.h"
@@ -34,7 +36,7 @@ Figure loss_figure(const TrainedNetwork& trained) {
     FigurePanel loss, validation;
     loss.title = "training loss";
     loss.x.label = validation.x.label = "epoch";
-    loss.y = {"loss (1: persistence, about)", AxisScale::log10};
+    loss.y.label = "loss (1: persistence, about)";
     validation.title = "validation, same recording";
     validation.y = {.label = "foreground MSE, share of persistence's",
                     .format = {NumberStyle::percent, 0, false}};
@@ -48,6 +50,25 @@ Figure loss_figure(const TrainedNetwork& trained) {
     validation.references.push_back({"persistence", 1});
     figure.panels = {loss, validation};
     return figure;
+}
+
+/// A run goes on by the rules it began with. They are compared as files, key by key.
+void check_same_rules(const fs::path& folder, const EvaluationProtocol& protocol) {
+    std::error_code error;
+    if (!fs::exists(folder / kProtocolFile, error)) return;
+    std::istringstream before(protocol_text(read_protocol(folder / kProtocolFile))),
+        now(protocol_text(protocol));
+    std::vector<std::string> keys;
+    for (std::string a, b; std::getline(before, a) && std::getline(now, b);) {
+        // A key that is not set is a comment: "# tau =".
+        const std::size_t start = b.starts_with("# ") ? 2 : 0;
+        if (a != b) keys.push_back(b.substr(start, b.find(' ', start) - start));
+    }
+    if (keys.empty()) return;
+    throw Error(ErrorCode::refused,
+                fmt::format("began by other rules than are asked for ({} in its {})",
+                            fmt::join(keys, ", "), kProtocolFile),
+                folder.string());
 }
 
 double peak_memory_gb() {
@@ -69,6 +90,13 @@ void run(Session& session, Arguments a) {
     a.options.device = device_from(a.device);
     a.options.augment = !a.still;
     a.options.threads = session.threads;
+    check_train_options(a.options);
+    if (a.judge.windows || a.judge.area == "specimen") {
+        throw Error(ErrorCode::usage,
+                    a.judge.windows
+                        ? "--windows is for judging; --train-windows limits what is learned from"
+                        : "--area specimen is for judging; a network sees and learns the frame");
+    }
     const fs::path folder = a.judge.output;
     std::error_code error;
     if (fs::exists(folder / kLastFile, error) && !a.options.resume) {
@@ -79,6 +107,7 @@ void run(Session& session, Arguments a) {
     a.judge.recordings = a.sources;
     const std::vector<Observation> observations = observe_all(session, a.judge);
     const EvaluationProtocol protocol = protocol_for(session, a.judge, observations);
+    if (a.options.resume) check_same_rules(folder, protocol);
     std::vector<TrainingSource> sources;
     for (const Observation& o : observations) {
         const WindowPlan plan = plan_windows(protocol, o.store->count(), o.source_name);
@@ -95,9 +124,10 @@ void run(Session& session, Arguments a) {
             "to {}",
             s.train.begin, s.train.end - 1, s.name, s.validation.begin, s.validation.end - 1));
     }
-    fs::create_directories(folder);
-    write_file(folder / kProtocolFile, protocol_text(protocol));
+    bool rules_written = false;  // with the first epoch: what is refused leaves nothing behind
     const auto told = [&](const EpochRecord& e) {
+        if (!std::exchange(rules_written, true))
+            write_file(folder / kProtocolFile, protocol_text(protocol));
         session.say(
             fmt::format("epoch {:>3}  loss {:.4f}  validation {:.3e} ({:+.1f} % against "
                         "persistence)  {:.0f} s",
@@ -119,10 +149,12 @@ void run(Session& session, Arguments a) {
         fmt::format("best      epoch {}: validation {:.3e}, persistence {:.3e} on the same "
                     "windows of the same recording",
                     f.epoch, f.validation_error, f.validation_persistence));
-    session.say(
-        fmt::format("Judge it  verdigris evaluate {} OTHER -o RESULTS --forecasters "
-                    "{},affinergb --hold-out OTHER",
-                    fmt::join(a.sources, " "), (folder / kBestFile).string()));
+    session.say(fmt::format(
+        "Judge it  verdigris evaluate {} OTHER -o RESULTS --protocol {}{}{} "
+        "--forecasters {},affinergb --hold-out OTHER",
+        fmt::join(a.sources, " "), (folder / kProtocolFile).string(),
+        a.judge.size == 128 ? "" : fmt::format(" --size {}", a.judge.size),
+        a.judge.crop == "auto" ? "" : " --crop " + a.judge.crop, (folder / kBestFile).string()));
     Json epochs = Json::array();
     for (const EpochRecord& e : trained.epochs) epochs.push_back(json_of(e));
     session.result({{"model", a.model},
@@ -148,7 +180,8 @@ void add_train(CLI::App& app, Session& session) {
     command->add_option("--source", a->sources, "Videos or folders of photographs to learn from")
         ->required();
     a->judge.add_rules(*command);
-    command->add_option("--epochs", a->options.epochs)->capture_default_str();
+    command->add_option("--epochs", a->options.epochs, "Times that all training windows are seen")
+        ->capture_default_str();
     command->add_option("--batch", a->options.batch, "Windows per step")->capture_default_str();
     command->add_option("--seed", a->options.seed, "Of weights, order and augmentation")
         ->capture_default_str();
@@ -160,6 +193,8 @@ void add_train(CLI::App& app, Session& session) {
     command->add_flag("--no-augment", a->still, "Learn from the windows as they are");
     command->add_flag("--resume", a->options.resume, "Go on with the run in the folder");
     session.add_options(*command);
+    command->get_option("--threads")
+        ->description("Threads to use (0: all). Another number, other last bits");
     command->callback([a, &session] { session.action = [a](Session& s) { run(s, *a); }; });
 }
 

@@ -43,7 +43,8 @@ LearnedForecaster learned_forecaster(const std::string& path, const std::vector<
     const TrainingFacts& facts = checkpoint.facts;
     Statuses notes;
     const bool known = std::ranges::any_of(facts.sources, [&](const LearnedSource& s) {
-        return s.source_sha256 == observation.source_sha256;
+        // Specimens of a study have no bytes.
+        return !s.source_sha256.empty() && s.source_sha256 == observation.source_sha256;
     });
     if (!known) {
         notes.push_back({"trained_elsewhere", Severity::caution,

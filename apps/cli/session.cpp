@@ -38,7 +38,10 @@ bool interrupted() {
 }
 
 ProgressPrinter::ProgressPrinter(bool silent)
-    : silent_(silent), terminal_(isatty(STDERR_FILENO) == 1), last_print_(Clock::now()) {}
+    : silent_(silent),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      last_print_(start_) {}
 
 bool ProgressPrinter::operator()(std::string_view stage, std::int64_t done, std::int64_t total) {
     if (interrupted()) {
@@ -47,14 +50,11 @@ bool ProgressPrinter::operator()(std::string_view stage, std::int64_t done, std:
     }
     if (silent_) return true;
     const auto now = Clock::now();
-    if (stage != stage_) {
-        stage_ = stage;
-        stage_start_ = now;
-    }
+    const auto left =
+        stages_.remaining(stage, done, total, std::chrono::duration<double>(now - start_).count());
     const auto pause = terminal_ ? std::chrono::milliseconds(100) : std::chrono::seconds(10);
     if (now - last_print_ < pause) return true;
     last_print_ = now;
-    const double elapsed = std::chrono::duration<double>(now - stage_start_).count();
     std::string line = fmt::format("{:<12}", stage);
     if (total > 0) {
         const double share = std::clamp(double(done) / double(total), 0.0, 1.0);
@@ -63,7 +63,7 @@ bool ProgressPrinter::operator()(std::string_view stage, std::int64_t done, std:
             line += fmt::format("[{:#<{}}{:.<{}}]", "", filled, "", 30 - filled);
         }
         line += fmt::format(" {:3.0f} %  {}/{}", share * 100, done, total);
-        if (share > 0) line += fmt::format("  ETA {}", eta(elapsed / share - elapsed));
+        if (left) line += fmt::format("  ETA {}", eta(*left));
     } else {
         line += fmt::format(" {} done", done);
     }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "stage_clock.h"
 #include "verdigris/progress.h"
 #include "verdigris/status.h"
 
@@ -27,8 +28,8 @@ class ProgressPrinter {
   private:
     using Clock = std::chrono::steady_clock;
     bool silent_, terminal_, drawn_ = false;
-    std::string stage_;
-    Clock::time_point stage_start_, last_print_;
+    StageClock stages_;
+    Clock::time_point start_, last_print_;
 };
 
 class Session {

@@ -33,6 +33,13 @@ expect 4 "no checkpoint of patinanet learned from" "$verdigris" evaluate "$chamb
 "$verdigris" evaluate "$chamber" "$air" "${few[@]}" --windows 12 --forecasters "$one" --hold-out air \
   -o "$scratch/held" --json >"$scratch/held.json" 2>/dev/null || fail "--hold-out failed"
 ! grep -q '"air -> chamber"' "$scratch/held.json" || fail "--hold-out judged the other direction too"
+expect 4 "at 32 x 32 pixels\); it would have to be chamber.*at 64 x 64 pixels.*same --size" "$verdigris" evaluate \
+  "$chamber" "$air" --size 64 --horizons 4 --windows 4 --hold-out air --forecasters "$one" -o "$scratch/refused"
+# What train says at its end can be done as it says.
+"$verdigris" train patinanet --source "$chamber" "${train[@]}" --epochs 2 -o "$runs/chamber" --resume >"$scratch/said" ||
+  fail "a finished run cannot be looked at again"
+hint=$(sed -n 's/^Judge it *verdigris //p' "$scratch/said" | sed "s|RESULTS|$scratch/hint|; s|--hold-out OTHER|--hold-out air|; s|OTHER|$air|")
+"$verdigris" $hint --windows 4 --quiet || fail "the hint is wrong: $hint"
 expect 2 "no recording 'sea' to hold out" "$verdigris" evaluate "$chamber" "$air" "${few[@]}" --windows 4 \
   --hold-out sea -o "$scratch/refused"
 expect 4 "is trained, and a single recording" "$verdigris" evaluate "$air" "${few[@]}" --single \
@@ -73,7 +80,12 @@ expect_no_partials "$runs/broken"
 "$verdigris" "${slow[@]}" -o "$runs/broken" --quiet --resume || fail "--resume failed"
 cmp -s "$runs/whole/best.safetensors" "$runs/broken/best.safetensors" || fail "a resumed run is not the whole one"
 expect 4 "holds a run already" "$verdigris" "${slow[@]}" -o "$runs/whole"
-expect 4 "with other options" "$verdigris" "${slow[@]}" --seed 3 -o "$runs/whole" --resume
+expect 4 "differs in --seed;" "$verdigris" "${slow[@]}" --seed 3 -o "$runs/whole" --resume
+# Rules that the checkpoint does not carry: the run's own file has them, and keeps them.
+rules=$(sha256sum "$runs/whole/protocol.toml")
+expect 4 "other rules than are asked for .tau in its protocol.toml" "$verdigris" "${slow[@]}" --tau 0.0011 \
+  -o "$runs/whole" --resume
+[ "$rules" = "$(sha256sum "$runs/whole/protocol.toml")" ] || fail "a refused --resume changed the rules"
 
 # A disk that is full: files of at most 3 MB, which a checkpoint of this network is above.
 before=$(sha256sum "$runs/chamber/best.safetensors")
@@ -90,8 +102,14 @@ expect_no_partials "$runs/full"
 
 # Bad input.
 expect 2 "no network 'resnet'" "$verdigris" train resnet --source "$chamber" "${train[@]}" -o "$runs/x"
+expect 2 "epochs must be" "$verdigris" train patinanet --source "$chamber" "${train[@]}" --epochs 0 -o "$runs/x"
+expect 2 "train-windows limits" "$verdigris" train patinanet --source "$chamber" "${train[@]}" --windows 4 -o "$runs/x"
+expect 2 "for judging" "$verdigris" train patinanet --source "$chamber" "${train[@]}" --area specimen -o "$runs/x"
+expect 4 "is the same recording as chamber" "$verdigris" train patinanet --source "$chamber" "$chamber" "${train[@]}" \
+  -o "$runs/x"
 expect 1 "CUDA was asked for" "$verdigris" train patinanet --source "$chamber" "${train[@]}" --device cuda -o "$runs/x"
 expect 2 "only patinanet" "$verdigris" susceptibility "$runs/whole" "$chamber" "${few[@]}" -o "$runs/x"
+expect_nothing "$runs/x"
 head -c 1000 "$one" >"$scratch/cut.safetensors"
 printf '\377\377\377\377\377\377\377\177{}' >"$scratch/hostile.safetensors"
 echo hello >"$scratch/text.safetensors"

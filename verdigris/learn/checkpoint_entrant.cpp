@@ -30,12 +30,18 @@ void check_fits(const NamedCheckpoint& c, const EvaluationProtocol& protocol) {
     }
 }
 
+std::string described(const std::string& recording, SampleRange train, SampleRange validation) {
+    return fmt::format("{}, samples {} to {}, validated on {} to {}", recording, train.begin,
+                       train.end - 1, validation.begin, validation.end - 1);
+}
+
 std::string described(const NamedCheckpoint& c) {
     std::vector<std::string> list;
     for (const LearnedSource& s : c.checkpoint.facts.sources)
-        list.push_back(
-            fmt::format("{}, samples {} to {}", s.recording, s.train.begin, s.train.end - 1));
-    return fmt::format("{} (learned from {})", c.path.string(), fmt::join(list, "; "));
+        list.push_back(described(s.recording, s.train, s.validation));
+    const int size = c.checkpoint.network->config().size;
+    return fmt::format("{} (learned from {}, at {} x {} pixels)", c.path.string(),
+                       fmt::join(list, "; "), size, size);
 }
 
 /// Is this what it learned from? Splits first: only then may the samples be read.
@@ -86,13 +92,15 @@ Entrant checkpoint_entrant(std::string name, std::vector<NamedCheckpoint> checkp
         std::vector<std::string> have, want;
         for (const NamedCheckpoint& c : *shared) have.push_back(described(c));
         for (const TrainingSource& s : sources) {
-            want.push_back(
-                fmt::format("{} (samples {} to {})", s.name, s.train.begin, s.train.end - 1));
+            want.push_back(fmt::format("{} (at {} x {} pixels)",
+                                       described(s.name, s.train, s.validation),
+                                       s.observation->width(), s.observation->height()));
         }
         throw Error(ErrorCode::refused,
                     fmt::format("no checkpoint of {} learned from what may be learned from here: "
-                                "there is {}; it would have to be {}. Train one more, or judge "
-                                "one recording only with --hold-out",
+                                "there is {}; it would have to be {}, of the same file by the "
+                                "same --size, --crop and --horizons. Train one more, or judge one "
+                                "recording only with --hold-out",
                                 name, fmt::join(have, ", "), fmt::join(want, " or ")));
     };
     return entrant;

@@ -90,6 +90,37 @@ TEST(Checkpoint, OfAnotherNetworkIsRefused) {
               std::string::npos);
 }
 
+// The reader of JSON would make 5 of 5.7 and of 2^32 + 5, 1 of true, and anything of 1e300.
+TEST(Checkpoint, WithNumbersThatAreNoneIsRefused) {
+    for (const char* context : {"5.7", "4294967299", "true", "1e300", "-3", "\"3\"", "null"}) {
+        EXPECT_NE(refused([&](SafetensorsFile& f) {
+                      f.metadata["network"] =
+                          std::string(R"({"kind":"patinanet","size":16,"context":)") + context +
+                          "}";
+                  }).find("context"),
+                  std::string::npos)
+            << context;
+    }
+    const auto changed = [](const std::string& from, const std::string& to) {
+        return refused([&](SafetensorsFile& f) {
+            std::string& text = f.metadata["training"];
+            const std::size_t at = text.find(from);
+            ASSERT_NE(at, std::string::npos) << text;
+            text.replace(at, from.size(), to);
+        });
+    };
+    EXPECT_NE(changed("\"stride\":10", "\"stride\":0").find("cannot have been"), std::string::npos);
+    EXPECT_NE(changed("\"horizons\":10", "\"horizons\":1e9").find("horizons"), std::string::npos);
+    EXPECT_NE(changed("[17,509]", "[17.5,509]").find("train"), std::string::npos);
+    EXPECT_NE(changed("\"epoch\":7", "\"epoch\":13").find("cannot have been"), std::string::npos);
+    EXPECT_NE(changed("\"augment\":true", "\"augment\":1").find("augment"), std::string::npos);
+    // Five million brackets would take half a gigabyte.
+    EXPECT_NE(refused([](SafetensorsFile& f) {
+                  f.metadata["network"] = std::string(5'000'000, '[');
+              }).find("too long"),
+              std::string::npos);
+}
+
 TEST(Checkpoint, NamesWhatItLearnedFrom) {
     TrainingFacts f;
     f.sources.resize(3);
@@ -112,9 +143,8 @@ TEST(Checkpoint, WithDamagedTensorsIsRefused) {
     EXPECT_NE(refused([](SafetensorsFile& f) { f.tensors.pop_back(); }).find("lacks"),
               std::string::npos);
     EXPECT_NE(refused([](SafetensorsFile& f) {
-                  f.tensors[0].type =
-                      f.tensors[0].type == TensorType::f32 ? TensorType::i32 : TensorType::f32;
-              }).find(""),
+                  f.tensors[0].type = TensorType::i32;
+              }).find("where F16, BF16, F32 or F64 is expected"),
               std::string::npos);
 }
 

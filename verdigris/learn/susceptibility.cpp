@@ -18,6 +18,7 @@
 namespace verdigris {
 namespace {
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kEndSamples = 20;  // [C] of docs/models/learn.md: two units at each end
 
 Image<float> mean_of(const std::vector<Image<float>>& maps) {
@@ -65,14 +66,8 @@ Mask both(const Mask& a, const Mask& b) {
     return out;
 }
 
-/// Mean of `value` over what is left after leaving out one of `units`; the jackknife's error of
-/// the whole mean. `mean_without(u)` with u = -1 leaves nothing out.
-Correlation jackknifed(int units, int count, const std::function<double(int)>& mean_without) {
-    Correlation c;
-    c.mean = mean_without(-1);
-    c.count = count;
-    c.error = std::numeric_limits<double>::quiet_NaN();
-    if (units < 3) return c;
+/// The jackknife's variance of a mean of which one of `units` can be left out.
+double jackknife_variance(int units, const std::function<double(int)>& mean_without) {
     std::vector<double> left;
     double mean = 0;
     for (int u = 0; u < units; ++u) {
@@ -81,56 +76,35 @@ Correlation jackknifed(int units, int count, const std::function<double(int)>& m
     }
     double sum = 0;
     for (const double v : left) sum += (v - mean) * (v - mean);
-    c.error = std::sqrt(sum * (units - 1) / units);
-    return c;
+    return sum * (units - 1) / units;
 }
 
 Correlation within_correlation(const std::vector<Image<float>>& maps, const Mask& where) {
-    const int n = int(maps.size());
     std::vector<std::vector<double>> r(maps.size(), std::vector<double>(maps.size()));
     for (std::size_t i = 0; i < maps.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) r[i][j] = pearson(maps[i], maps[j], where);
-    return jackknifed(n, n * (n - 1) / 2, [&](int without) {
-        double sum = 0;
-        int count = 0;
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < i; ++j) {
-                if (i == without || j == without) continue;
-                sum += r[std::size_t(i)][std::size_t(j)];
-                ++count;
-            }
-        }
-        return sum / count;
-    });
+    return within_mean(r);
 }
 
 Correlation cross_correlation(const std::vector<Image<float>>& a,
                               const std::vector<Image<float>>& b, const Mask& where) {
-    const int n = int(a.size()), m = int(b.size());
     std::vector<std::vector<double>> r(a.size(), std::vector<double>(b.size()));
     for (std::size_t i = 0; i < a.size(); ++i)
         for (std::size_t j = 0; j < b.size(); ++j) r[i][j] = pearson(a[i], b[j], where);
-    return jackknifed(n + m, n * m, [&](int without) {
-        double sum = 0;
-        int count = 0;
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; j < m; ++j) {
-                if (i == without || n + j == without) continue;
-                sum += r[std::size_t(i)][std::size_t(j)];
-                ++count;
-            }
-        }
-        return sum / count;
-    });
+    return cross_mean(r);
 }
 
 Correlation change_correlation(const SusceptibilityMaps& maps, const Mask& where) {
-    return jackknifed(int(maps.rho.size()), int(maps.rho.size()), [&](int without) {
+    const int n = int(maps.rho.size());
+    Correlation c{pearson(maps.mean, maps.change, where), kUnknown, n};
+    if (n < 3) return c;
+    c.error = std::sqrt(jackknife_variance(n, [&](int without) {
         std::vector<Image<float>> kept;
-        for (int i = 0; i < int(maps.rho.size()); ++i)
+        for (int i = 0; i < n; ++i)
             if (i != without) kept.push_back(maps.rho[std::size_t(i)].clone());
         return pearson(mean_of(kept), maps.change, where);
-    });
+    }));
+    return c;
 }
 
 SusceptibilityMaps maps_of(PatinaNet& network, torch::Device device, const TrainingFacts& facts,
@@ -169,6 +143,47 @@ SusceptibilityMaps maps_of(PatinaNet& network, torch::Device device, const Train
 
 }  // namespace
 
+Correlation within_mean(const std::vector<std::vector<double>>& r) {
+    const int n = int(r.size());
+    const auto mean_without = [&](int without) {
+        double sum = 0;
+        int count = 0;
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < i; ++j) {
+                if (i == without || j == without) continue;
+                sum += r[std::size_t(i)][std::size_t(j)];
+                ++count;
+            }
+        }
+        return sum / count;
+    };
+    Correlation c{mean_without(-1), kUnknown, n * (n - 1) / 2};
+    if (n >= 3) c.error = std::sqrt(jackknife_variance(n, mean_without));
+    return c;
+}
+
+Correlation cross_mean(const std::vector<std::vector<double>>& r) {
+    const int n = int(r.size()), m = int(r.front().size());
+    const auto mean_without = [&](int row, int column) {
+        double sum = 0;
+        int count = 0;
+        for (int i = 0; i < n; ++i) {
+            for (int j = 0; j < m; ++j) {
+                if (i == row || j == column) continue;
+                sum += r[std::size_t(i)][std::size_t(j)];
+                ++count;
+            }
+        }
+        return sum / count;
+    };
+    Correlation c{mean_without(-1, -1), kUnknown, n * m};
+    if (n >= 2 && m >= 2) {
+        c.error = std::sqrt(jackknife_variance(n, [&](int u) { return mean_without(u, -1); }) +
+                            jackknife_variance(m, [&](int u) { return mean_without(-1, u); }));
+    }
+    return c;
+}
+
 double pearson(const Image<float>& a, const Image<float>& b, const Mask& where) {
     double n = 0, sa = 0, sb = 0;
     const auto counts = [&](std::size_t i) { return where.empty() || where.pixels()[i] != 0; };
@@ -201,6 +216,12 @@ SusceptibilityAnalysis analyze_susceptibility(const Checkpoint& checkpoint,
                     fmt::format("the network was trained on contexts of {} frames; the protocol "
                                 "has {}",
                                 config.context, protocol.context));
+    }
+    if (checkpoint.facts.stride != protocol.stride) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("the network was trained with {} samples per unit; the protocol "
+                                "has {}",
+                                checkpoint.facts.stride, protocol.stride));
     }
     SusceptibilityAnalysis analysis;
     for (std::size_t i = 0; i < observations.size(); ++i) {

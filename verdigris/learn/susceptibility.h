@@ -15,11 +15,12 @@
 
 namespace verdigris {
 
-/// A mean over pairs or maps of Pearson's r. The error is the jackknife's over recordings' windows
-/// (or maps): leave one out, of all pairs that it is in.
+/// A mean over pairs or maps of Pearson's r. The error is the jackknife's over a recording's
+/// windows (or maps): leave one out, of all pairs that it is in. Between two recordings each is
+/// left out of its own, and the two variances add.
 struct Correlation {
     double mean = 0;
-    double error = 0;  ///< standard error; NaN where there are fewer than three windows
+    double error = 0;  ///< standard error; NaN where there are too few windows to leave one out
     int count = 0;     ///< pairs or maps
 };
 
@@ -57,12 +58,18 @@ struct SusceptibilityAnalysis {
 
 /// Of windows one span apart (6 in the paper's 950 samples; the last may be cut by the end).
 /// All maps are of the network's size, to which recordings are stretched. Throws Error{usage} for a
-/// network without a susceptibility; Error{bad_input} naming a recording too short for two windows.
+/// network without a susceptibility or trained on another context or stride; Error{bad_input}
+/// naming a recording too short for two windows.
 /// Cost: one encoding per window.
 SusceptibilityAnalysis analyze_susceptibility(const Checkpoint& checkpoint,
                                               const EvaluationProtocol& protocol,
                                               std::span<const Observation> observations,
                                               const Progress& progress = {});
+
+/// Of r[i][j] with j < i: windows of one recording with each other. Error from three windows on.
+Correlation within_mean(const std::vector<std::vector<double>>& r);
+/// Of all r[i][j], i of one recording and j of the other. Error from two windows of each on.
+Correlation cross_mean(const std::vector<std::vector<double>>& r);
 
 /// Pearson's r of two maps of one size over `where` (empty: every pixel); 0 where one is constant.
 double pearson(const Image<float>& a, const Image<float>& b, const Mask& where);

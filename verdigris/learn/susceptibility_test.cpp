@@ -26,9 +26,34 @@ TEST(Pearson, KnownAnswers) {
     EXPECT_NEAR(pearson(a, b, two), -1, 1e-12);
 }
 
+// r[i][j] = a[i] + b[j]: the mean's variance is that of a mean of a plus that of a mean of b. The
+// jackknife of a plain mean is its usual standard error.
+TEST(Jackknife, BetweenRecordingsAddsTheVariancesOfTwoMeans) {
+    const std::vector<double> a{0.1, 0.3, 0.2, 0.4}, b{0.5, 0.1, 0.3};
+    std::vector<std::vector<double>> r;
+    for (const double x : a) r.push_back({x + b[0], x + b[1], x + b[2]});
+    const Correlation c = cross_mean(r);
+    EXPECT_NEAR(c.mean, 0.25 + 0.3, 1e-12);
+    EXPECT_EQ(c.count, 12);
+    EXPECT_NEAR(c.error, std::sqrt(0.05 / 3 / 4 + 0.08 / 2 / 3), 1e-12);
+    EXPECT_TRUE(std::isnan(cross_mean({{0.1, 0.2}}).error));
+}
+
+// By hand: without 0, 1 and 2 the pairs left are 0.8, 0.6 and 0.4; squares 0.08, times 2 / 3.
+TEST(Jackknife, WithinARecordingLeavesOutAWindowWithItsPairs) {
+    const Correlation c = within_mean({{0, 0, 0}, {0.4, 0, 0}, {0.6, 0.8, 0}});
+    EXPECT_NEAR(c.mean, 0.6, 1e-12);
+    EXPECT_EQ(c.count, 3);
+    EXPECT_NEAR(c.error, std::sqrt(0.08 * 2 / 3), 1e-12);
+    const Correlation two = within_mean({{0, 0}, {0.4, 0}});
+    EXPECT_NEAR(two.mean, 0.4, 1e-12);
+    EXPECT_TRUE(std::isnan(two.error));
+}
+
 Checkpoint fresh(NetworkKind kind, const Observation& source) {
     Checkpoint c;
     c.network = std::make_shared<Network>(NetworkConfig{kind, 3, 32}, 2);
+    c.facts.stride = small_protocol().stride;
     c.facts.sources = {{source.source_name, source.source_sha256, "", {}, {}}};
     return c;
 }
@@ -99,6 +124,14 @@ TEST(Susceptibility, RefusesOtherNetworksAndShortRecordings) {
     brief.push_back(changing_recording(32, 20, "a"));
     EXPECT_THROW(analyze_susceptibility(fresh(NetworkKind::patinanet, brief[0]), protocol, brief),
                  Error);
+    Checkpoint finer = fresh(NetworkKind::patinanet, recordings[0]);
+    finer.facts.stride = protocol.stride + 1;
+    try {
+        analyze_susceptibility(finer, protocol, recordings);
+        FAIL() << "maps of frames other units apart than it learned from";
+    } catch (const Error& e) {
+        EXPECT_NE(e.sentence().find("samples per unit"), std::string::npos) << e.sentence();
+    }
 }
 
 }  // namespace

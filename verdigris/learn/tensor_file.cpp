@@ -7,6 +7,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <type_traits>
+#include <utility>
 
 #include "verdigris/error.h"
 
@@ -15,6 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 constexpr const char* kFormat = "verdigris-checkpoint-1";
+constexpr std::size_t kLongestText = 1 << 20;  // chosen: 3000 sources. Parsed, it is 50 times that
 
 [[noreturn]] void bad(const std::string& where, const std::string& sentence) {
     throw Error(ErrorCode::bad_input, sentence, where);
@@ -30,25 +33,46 @@ const std::string& entry(const std::map<std::string, std::string>& metadata, con
 
 Json object_of(const std::map<std::string, std::string>& metadata, const char* key,
                const std::string& where) {
-    const Json json = Json::parse(entry(metadata, key, where), nullptr, false);
+    const std::string& text = entry(metadata, key, where);
+    if (text.size() > kLongestText) bad(where, fmt::format("its '{}' is too long", key));
+    const Json json = Json::parse(text, nullptr, false);
     if (!json.is_object()) bad(where, fmt::format("its '{}' is no JSON object", key));
     return json;
 }
 
+/// The JSON reader would make a whole number of 5.7, of true and of what does not fit.
 template <class T>
-T value_of(const Json& json, const char* key, const std::string& where) {
-    try {
-        return json.at(key).get<T>();
-    } catch (const Json::exception&) {
-        bad(where, fmt::format("its metadata lacks '{}', or has it as something else", key));
+bool holds(const Json& json) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return json.is_boolean();
+    } else if constexpr (std::is_integral_v<T>) {
+        return json.is_number_unsigned()
+                   ? std::in_range<T>(json.get<std::uint64_t>())
+                   : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
+    } else if constexpr (std::is_floating_point_v<T>) {
+        return json.is_number();
+    } else if constexpr (std::is_same_v<T, std::string>) {
+        return json.is_string();
+    } else {
+        return json.is_array();
     }
 }
 
+template <class T>
+T value_of(const Json& json, const char* key, const std::string& where) {
+    const auto at = json.is_object() ? json.find(key) : json.end();
+    if (at == json.end() || !holds<T>(*at))
+        bad(where, fmt::format("its metadata lacks '{}', or has it as something else", key));
+    return at->template get<T>();
+}
+
 SampleRange range_of(const Json& json, const char* key, const std::string& where) {
-    const auto pair = value_of<std::vector<int>>(json, key, where);
-    if (pair.size() != 2 || pair[0] < 0 || pair[1] < pair[0])
+    const auto pair = value_of<std::vector<Json>>(json, key, where);
+    if (pair.size() != 2 || !holds<int>(pair[0]) || !holds<int>(pair[1]) ||
+        pair[0].get<int>() < 0 || pair[1].get<int>() < pair[0].get<int>()) {
         bad(where, fmt::format("its '{}' is no range of samples", key));
-    return {pair[0], pair[1]};
+    }
+    return {pair[0].get<int>(), pair[1].get<int>()};
 }
 
 }  // namespace
@@ -183,6 +207,8 @@ TrainingFacts facts_of(const std::map<std::string, std::string>& metadata,
     get("validation_persistence", f.validation_persistence);
     get("version", f.version);
     get("torch", f.torch);
+    if (f.stride < 1 || f.horizons < 1 || f.epoch < 1 || f.epochs < f.epoch)
+        bad(where, "has a training in its metadata that cannot have been");
     return f;
 }
 

@@ -2,6 +2,7 @@
 #include "verdigris/learn/train.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <torch/types.h>
 #include <torch/utils.h>
 #include <torch/version.h>
@@ -26,19 +27,6 @@
 namespace verdigris {
 namespace fs = std::filesystem;
 namespace {
-
-void check_options(const TrainOptions& o) {
-    const auto must = [](bool holds, const char* what) {
-        if (!holds) throw Error(ErrorCode::usage, what);
-    };
-    must(o.epochs >= 1 && o.epochs <= 100000, "epochs must be 1 to 100000");
-    must(o.batch >= 1 && o.batch <= 1024, "the batch must be 1 to 1024 windows");
-    must(o.learning_rate > 0 && o.learning_rate <= 1, "the learning rate must be above 0, up to 1");
-    must(o.weight_decay >= 0 && o.weight_decay < 1, "the weight decay must be 0 or more, below 1");
-    must(o.clip_norm > 0 && std::isfinite(o.clip_norm), "the gradient's limit must be above 0");
-    must(o.max_windows >= 0, "the number of windows cannot be negative");
-    must(o.threads >= 0, "the number of threads cannot be negative");
-}
 
 /// Horizons a step is trained on and their weights in the loss. horizonnet answers each horizon by
 /// itself at full cost: one from each of three strata stands for its stratum. Of step alone.
@@ -80,16 +68,17 @@ class Trainer {
                   learned_size(sources.front().observation->width(),
                                sources.front().observation->height())} {
         for (const TrainingSource& source : sources) add(source);
+        set_facts();
         use_cpu_for_networks(threads_);
         network_ = std::make_shared<Network>(config_, options.seed);
         network_->move_to(options.device);
         optimizer_ = make_optimizer(module(), options.learning_rate, options.weight_decay);
         steps_per_epoch_ = (int(chosen_.size()) + options.batch - 1) / options.batch;
-        set_facts();
         persistence_ = persistence_error();
     }
 
     TrainedNetwork run(const EpochDone& epoch_done) {
+        const FolderLock lock(folder_);
         resume_or_begin();
         for (int epoch = int(epochs_.size()) + 1; epoch <= options_.epochs; ++epoch) {
             const auto start = std::chrono::steady_clock::now();
@@ -100,6 +89,7 @@ class Trainer {
             const ValidationErrors errors = validation_errors();
             record.validation_error = errors.network;
             record.validation_persistence = errors.persistence;
+            if (!std::isfinite(errors.network)) fail_diverged("validation error", epoch, "the end");
             record.seconds =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             save(record);
@@ -157,6 +147,15 @@ class Trainer {
                                       learned_data_hash(*source.observation->store, source.train,
                                                         source.validation, progress_),
                                       source.train, source.validation});
+        }
+        for (std::size_t i = 1; i < facts_.sources.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                if (facts_.sources[i].data_sha256 != facts_.sources[j].data_sha256) continue;
+                throw Error(ErrorCode::refused,
+                            "is the same recording as " + facts_.sources[j].recording +
+                                ", and would count twice",
+                            facts_.sources[i].recording);
+            }
         }
         facts_.stride = protocol_.stride;
         facts_.horizons = protocol_.horizons;
@@ -220,12 +219,21 @@ class Trainer {
         same.version = facts_.version;
         if (!(same == facts_)) {
             throw Error(ErrorCode::refused,
-                        "is a run with other options, of another recording or with another "
-                        "number of threads; it could not go on as it began",
+                        fmt::format("is a run that differs in {}; it could not go on as it began",
+                                    fmt::join(differing_options(same, facts_), ", ")),
                         folder_.string());
         }
         epochs_ = state.epochs;
         for (const EpochRecord& e : epochs_) best_ = std::min(best_, e.validation_error);
+        // Now and not after hours: it is what the run is for.
+        if (!fs::exists(folder_ / kBestFile, error)) {
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("has no {} beside its {}: the best epoch so far is lost, and "
+                                    "the run cannot go on without it",
+                                    kBestFile, kLastFile),
+                        folder_.string());
+        }
+        write_file(folder_ / kMetricsFile, metrics_text(epochs_));  // may lack what was saved last
     }
 
     /// Fills in the loss and the time of a step.
@@ -282,14 +290,20 @@ class Trainer {
         const double norm =
             torch::nn::utils::clip_grad_norm_(module().parameters(), options_.clip_norm);
         if (!std::isfinite(value) || !std::isfinite(norm)) {
-            throw Error(ErrorCode::failed,
-                        fmt::format("the loss is not a number any more at step {} of epoch {}; "
-                                    "what was saved after earlier epochs stays in {}; try a "
-                                    "smaller --learning-rate",
-                                    step % steps_per_epoch_ + 1, epoch, folder_.string()));
+            fail_diverged("loss", epoch, fmt::format("step {}", step % steps_per_epoch_ + 1));
         }
         optimizer_->step();
         return value;
+    }
+
+    [[noreturn]] void fail_diverged(const char* what, int epoch, const std::string& where) const {
+        throw Error(ErrorCode::failed,
+                    fmt::format("the {} is not a number any more at {} of epoch {}; {}; try a "
+                                "smaller --learning-rate",
+                                what, where, epoch,
+                                epochs_.empty() ? "nothing was saved yet"
+                                                : "what was saved after earlier epochs stays in " +
+                                                      folder_.string()));
     }
 
     void save(const EpochRecord& record) {
@@ -298,7 +312,6 @@ class Trainer {
         facts.epoch = record.epoch;
         facts.validation_error = record.validation_error;
         facts.validation_persistence = record.validation_persistence;
-        fs::create_directories(folder_);
         // The best first: a run that dies in between makes the same best again.
         if (record.validation_error < best_) {
             best_ = record.validation_error;
@@ -329,11 +342,24 @@ class Trainer {
 
 }  // namespace
 
+void check_train_options(const TrainOptions& o) {
+    const auto must = [](bool holds, const char* what) {
+        if (!holds) throw Error(ErrorCode::usage, what);
+    };
+    must(o.epochs >= 1 && o.epochs <= 100000, "epochs must be 1 to 100000");
+    must(o.batch >= 1 && o.batch <= 1024, "the batch must be 1 to 1024 windows");
+    must(o.learning_rate > 0 && o.learning_rate <= 1, "the learning rate must be above 0, up to 1");
+    must(o.weight_decay >= 0 && o.weight_decay < 1, "the weight decay must be 0 or more, below 1");
+    must(o.clip_norm > 0 && std::isfinite(o.clip_norm), "the gradient's limit must be above 0");
+    must(o.max_windows >= 0, "the number of windows cannot be negative");
+    must(o.threads >= 0, "the number of threads cannot be negative");
+}
+
 TrainedNetwork train_network(const EvaluationProtocol& protocol,
                              const std::vector<TrainingSource>& sources,
                              const TrainOptions& options, const fs::path& folder,
                              const Progress& progress, const EpochDone& epoch_done) {
-    check_options(options);
+    check_train_options(options);
     check_protocol(protocol);
     if (sources.empty()) throw Error(ErrorCode::usage, "there is no recording to learn from");
     Trainer trainer(protocol, sources, options, folder, progress);

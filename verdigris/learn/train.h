@@ -33,6 +33,10 @@ struct TrainOptions {
     bool resume = false;
 };
 
+/// Throws Error{usage} naming the option and its range. train_network calls it; so can who has
+/// something slow to do first.
+void check_train_options(const TrainOptions& options);
+
 /// After an epoch.
 using EpochDone = std::function<void(const EpochRecord&)>;
 
@@ -44,8 +48,10 @@ struct TrainedNetwork {
 
 /// Trains on `sources` (windows of all of them, mixed) and writes best.safetensors,
 /// last.safetensors and metrics.jsonl into `folder` (made if absent) after every epoch, each whole
-/// or not at all. Context, horizons, stride and foreground are the protocol's; frames must be
-/// square, a multiple of 8, and of one size.
+/// or not at all. Context, horizons, stride, splits and the foreground's threshold are the
+/// protocol's; the area is always the frame and the mask the union of horizons. Samples are
+/// stretched to a square of learned_size() (training_set.h), which must be the same for all
+/// sources.
 ///
 /// Loss, per batch: (MSE over the foreground + 0.1 MSE over all pixels) / m, m the mean foreground
 /// MSE of persistence over the training windows; it starts near 1. Windows whose foreground is
@@ -56,9 +62,10 @@ struct TrainedNetwork {
 /// Memory: the training samples as floats (97 MB at 128 x 128) and 1 to 3 GB of activations.
 /// Progress stages: "load", "train" (steps of all epochs), "validate".
 /// Throws Error{usage}: options. Error{bad_input}: sources of different sizes, too few
-/// samples for a window.
-/// Error{refused}: the folder holds a run of other options; nothing changes in the training
-/// windows. Error{failed}: the loss is not a number (what was saved stays), disk full.
+/// samples for a window, nothing that changes in the validation windows, a damaged state.
+/// Error{refused}: the folder holds a run of other options (named) or is being written by another
+/// process; a source twice; nothing changes in the training windows. Error{failed}: the loss or the
+/// validation error is not a number (what was saved stays), disk full.
 TrainedNetwork train_network(const EvaluationProtocol& protocol,
                              const std::vector<TrainingSource>& sources,
                              const TrainOptions& options, const std::filesystem::path& folder,

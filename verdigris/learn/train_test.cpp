@@ -6,6 +6,7 @@
 #include <torch/utils.h>
 
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -96,8 +97,6 @@ TEST_P(Training, SameSeedSameBytesAndAResumedRunIsTheWholeRun) {
         EXPECT_EQ(first.epochs[i].validation_error, second.epochs[i].validation_error);
     }
     // And the state itself, moments included.
-    const ScratchFolder other;
-    train_network(protocol, source, options, other.path());
     const auto state_a = read_safetensors(whole.path() / kLastFile),
                state_b = read_safetensors(broken.path() / kLastFile);
     EXPECT_EQ(state_a.tensors, state_b.tensors);
@@ -132,7 +131,6 @@ TEST(TrainingRun, StartsAtPersistenceAndKeepsTheBestEpoch) {
 
 // Only the two ranges are read: the audit would tell.
 TEST(TrainingRun, ReadsNothingOutsideOfItsSplits) {
-    const Observation plate = changing_recording(16, 80), other = changing_recording(16, 90, "b");
     const EvaluationProtocol protocol = small_protocol();
     const ScratchFolder folder;
     Entrant entrant;
@@ -174,6 +172,90 @@ TEST(TrainingRun, LearnsFromSeveralRecordings) {
     EXPECT_THROW(
         train_network(protocol, {}, quick_options(NetworkKind::patinanet, 1), folder / "none"),
         Error);
+}
+
+std::string refusal(const std::function<void()>& what) {
+    try {
+        what();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    ADD_FAILURE() << "was not refused";
+    return "";
+}
+
+TEST(TrainingRun, RefusesOneRecordingTwice) {
+    const Observation a = changing_recording(16, 80), b = changing_recording(16, 80, "copy");
+    const EvaluationProtocol protocol = small_protocol();
+    const ScratchFolder folder;
+    EXPECT_NE(refusal([&] {
+                  train_network(protocol, {source_of(a, protocol), source_of(b, protocol)},
+                                quick_options(NetworkKind::patinanet, 1), folder.path());
+              }).find("copy: is the same recording as plate"),
+              std::string::npos);
+}
+
+TEST(TrainingRun, AFolderIsOneProcesss) {
+    const Observation o = changing_recording(16, 80);
+    const EvaluationProtocol protocol = small_protocol();
+    const std::vector<TrainingSource> source{source_of(o, protocol)};
+    const ScratchFolder folder;
+    const TrainOptions options = quick_options(NetworkKind::patinanet, 1);
+    {
+        const FolderLock other(folder / "run");
+        EXPECT_NE(refusal([&] {
+                      train_network(protocol, source, options, folder / "run");
+                  }).find("by another process"),
+                  std::string::npos);
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "run" / kLastFile));
+    train_network(protocol, source, options, folder / "run");
+}
+
+TEST(TrainingRun, GoesOnOnlyWithWhatItHad) {
+    const Observation o = changing_recording(16, 80);
+    const EvaluationProtocol protocol = small_protocol();
+    const std::vector<TrainingSource> source{source_of(o, protocol)};
+    const ScratchFolder folder;
+    TrainOptions options = quick_options(NetworkKind::patinanet, 1);
+    train_network(protocol, source, options, folder.path());
+    options.resume = true;
+    // Killed between the last two files: the line is there again.
+    const auto metrics = read_file(folder.path() / kMetricsFile);
+    write_file(folder.path() / kMetricsFile, std::string_view());
+    train_network(protocol, source, options, folder.path());
+    EXPECT_EQ(read_file(folder.path() / kMetricsFile), metrics);
+    TrainOptions other = options;
+    other.seed = 4, other.augment = false;
+    EXPECT_NE(refusal([&] {
+                  train_network(protocol, source, other, folder.path());
+              }).find("differs in --seed, --no-augment;"),
+              std::string::npos);
+    std::filesystem::remove(folder.path() / kBestFile);
+    EXPECT_NE(refusal([&] {
+                  train_network(protocol, source, options, folder.path());
+              }).find("the best epoch so far is lost"),
+              std::string::npos);
+}
+
+// Every loss was a number: nothing to choose the best epoch by, all the same.
+TEST(TrainingRun, StopsWhenTheValidationErrorIsNoNumber) {
+    const EvaluationProtocol protocol = small_protocol();
+    const ScratchFolder folder;
+    Observation wild = changing_recording(16, 80);
+    const TrainingSource source = source_of(wild, protocol);
+    wild.store = std::make_shared<PixelStore>(16, 16, 80, [&](int x, int y, int t) {
+        SrgbF c = drifted(x, y, t / 2.0, 2);
+        // Ten times their difference, which patinanet is shown, is no float any more.
+        if (t >= source.validation.begin) c.r = t % 4 < 2 ? 1e38f : -1e38f;
+        return c;
+    });
+    EXPECT_NE(refusal([&] {
+                  train_network(protocol, {source}, quick_options(NetworkKind::patinanet, 2),
+                                folder.path());
+              }).find("the validation error is not a number any more at the end of epoch 1"),
+              std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / kLastFile));
 }
 
 TEST(TrainingRun, RefusesWhatCannotGoOn) {

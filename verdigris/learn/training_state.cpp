@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/learn/training_state.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <torch/version.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -131,6 +135,41 @@ TrainingState read_training_state(const std::filesystem::path& path, const Netwo
         optimizer.state()[key_of(item.value())] = std::move(moments);
     }
     return state;
+}
+
+std::vector<std::string> differing_options(const TrainingFacts& a, const TrainingFacts& b) {
+    std::vector<std::string> list;
+    const auto add = [&](bool differs, const char* name) {
+        if (differs) list.emplace_back(name);
+    };
+    add(a.sources != b.sources, "its recordings, their samples or the splits");
+    add(a.stride != b.stride, "--stride");
+    add(a.horizons != b.horizons, "--horizons");
+    add(a.epochs != b.epochs, "--epochs");
+    add(a.batch != b.batch, "--batch");
+    add(a.max_windows != b.max_windows, "--train-windows");
+    add(a.threads != b.threads, "--threads");
+    add(a.device != b.device, "--device");
+    add(a.seed != b.seed, "--seed");
+    add(a.learning_rate != b.learning_rate, "--learning-rate");
+    add(a.weight_decay != b.weight_decay, "the weight decay");
+    add(a.clip_norm != b.clip_norm, "the gradient's limit");
+    add(a.augment != b.augment, "--no-augment");
+    add(a.torch != b.torch, "the version of libtorch");
+    return list;
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+        return;
+    ::close(descriptor_);
+    throw Error(ErrorCode::refused,
+                "is being trained into by another process; choose another folder", folder.string());
+}
+FolderLock::~FolderLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::string metrics_text(const std::vector<EpochRecord>& epochs) {

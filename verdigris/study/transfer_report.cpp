@@ -139,6 +139,10 @@ std::vector<FigurePanel> gain_panels(const TransferStudy& study, const std::vect
     return panels;
 }
 
+std::string seeds_words(int count) {
+    return count == 1 ? "1 seed" : fmt::format("{} seeds", count);
+}
+
 /// "another pose: 1.40 times the error, 1.10 to 1.80", or that it cannot be told from none.
 std::string effect_words(const char* what, const SeedMean& m) {
     if (!m.has_interval())
@@ -162,10 +166,10 @@ std::vector<std::string> transfer_sentences(const TransferStudy& study) {
                                 number_text(day.high, kGain));
         }
         list.push_back(fmt::format(
-            "{} on {}, {} seeds: against holding still it gains {} on another day of the specimen "
+            "{} on {}, {}: against holding still it gains {} on another day of the specimen "
             "it learned from. {}; {}.",
-            e.forecaster, e.preset, day.count, gain, effect_words("Another pattern", e.pattern),
-            effect_words("another pose", e.pose)));
+            e.forecaster, e.preset, seeds_words(day.count), gain,
+            effect_words("Another pattern", e.pattern), effect_words("another pose", e.pose)));
     }
     return list;
 }
@@ -279,9 +283,8 @@ Report transfer_report(const TransferStudy& study) {
     if (o.seeds < 3) {
         verdict.blocks.push_back(
             Status{"few_seeds", Severity::caution,
-                   fmt::format("With {} seeds an interval says next to nothing; take three at the "
-                               "least.",
-                               o.seeds)});
+                   fmt::format("With {} an interval says next to nothing; take three at the least.",
+                               seeds_words(o.seeds))});
     }
     report.sections.push_back(std::move(verdict));
     report.sections.push_back(

@@ -39,7 +39,8 @@ struct TransferScore {
     double log_ratio() const;
 };
 
-/// Part 1: trained on one specimen, tested on another recording of the same or of another pattern,
+/// Part 1 (`pattern`: of the corrosion and of the brushing, all that tells specimens apart):
+/// trained on one specimen, tested on another recording of the same or of another pattern,
 /// in the same or in another pose. In every cell the day is another: noise, light, environment.
 struct TransferCell {
     std::string preset;
@@ -72,6 +73,10 @@ struct TransferStudy {
 /// turned by 8 degrees, moved by 5 % of the frame and a tenth smaller.
 SimulationSpec transfer_spec(const std::string& preset, int specimen, int day, bool usual_pose,
                              int size);
+
+/// Number (pattern and day) of the i-th specimen that a network of `seed` learns from, i from 0 to
+/// 15; of no pattern and no day that any network is judged on, and of no other seed.
+int learned_specimen(int seed, int i);
 
 /// Trains in `runs`, a folder per training, which resumes what was interrupted; recordings are
 /// simulated in memory. Deterministic. Progress stages: "study" (trainings and tests done, of all)

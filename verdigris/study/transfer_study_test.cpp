@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "verdigris/error.h"
 #include "verdigris/files/testing.h"
@@ -58,6 +59,24 @@ TEST(TransferStudy, IntervalsAreStudents) {
     EXPECT_NEAR(m.mean, 2, 1e-12);
     EXPECT_NEAR(m.high - m.mean, 4.303 / std::sqrt(3.0), 1e-3);
     EXPECT_FALSE(seed_mean({5}).has_interval());
+    // Beyond the table: 2.201 for 11 degrees of freedom, 2.045 for 29.
+    for (const auto& [n, point] : {std::pair{12, 2.201}, {30, 2.045}}) {
+        std::vector<double> values(static_cast<std::size_t>(n), 0.0);
+        for (std::size_t i = 0; i < values.size(); i += 2) values[i] = 1;
+        const SeedMean s = seed_mean(values);
+        EXPECT_NEAR((s.high - s.mean) / std::sqrt(0.25 / (n - 1)), point, 1e-3) << n;
+    }
+}
+
+// What is learned from is judged on nowhere, in any seed: neither its pattern nor its day.
+TEST(TransferStudy, LearnsFromNothingThatItIsJudgedOn) {
+    std::set<int> learned, judged;
+    for (int seed = 1; seed <= 50; ++seed) {
+        for (int i = 0; i < 16; ++i) EXPECT_TRUE(learned.insert(learned_specimen(seed, i)).second);
+        for (const int offset : {500, 1000, 2000}) judged.insert(offset + seed);
+    }
+    for (const int number : judged) EXPECT_FALSE(learned.contains(number)) << number;
+    EXPECT_EQ(learned_specimen(3, 7), 307);  // trainings are kept: these stay
 }
 
 TEST(TransferStudy, SpecsChangeOneThingAtATime) {
@@ -107,6 +126,9 @@ TEST(TransferStudy, RunsAndResumes) {
     for (std::size_t i = 0; i < first.cells.size(); ++i)
         EXPECT_EQ(first.cells[i].scores[0].error, second.cells[i].scores[0].error);
     check_report(transfer_report(first));
+    options.networks.push_back(options.networks.front());
+    EXPECT_THROW(run_transfer_study(options, folder.path()), Error);
+    options.networks.pop_back();
     options.seeds = 0;
     EXPECT_THROW(run_transfer_study(options, folder.path()), Error);
 }
