@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
+#include <numeric>
 #include <vector>
 
 #include "verdigris/pixels/parallel_rows.h"
@@ -11,7 +13,7 @@
 namespace verdigris {
 namespace {
 
-// chosen: a bin holds one pixel in thousands, so that few are sorted, and the bins fit the cache.
+// chosen: a bin holds one pixel in thousands, so that few are searched, and the bins fit the cache.
 constexpr int kBins = 2048;
 constexpr int kRowsPerRun = 64;
 
@@ -25,19 +27,42 @@ struct Partial {
     std::vector<double> in_bin;  ///< sum of errors
 };
 
-/// The error at which the running sum of the sorted errors of `bin`, which starts at `before`,
-/// first exceeds `goal`.
-double crossing(const Image<float>& map, std::size_t bin, double before, double goal) {
-    std::vector<float> errors;
-    for (const float e : map.pixels()) {
-        if (bin_of(e) == bin) errors.push_back(e);
+/// The error at which the running sum of the sorted `errors` first exceeds `goal`, without sorting:
+/// quickselect, by sums instead of counts.
+double crossing(std::vector<float> errors, double goal) {
+    auto begin = errors.begin(), end = errors.end();
+    float pivot = 0;
+    while (begin != end) {
+        pivot = begin[(end - begin) / 2];
+        const auto equal = std::partition(begin, end, [&](float e) { return e < pivot; });
+        const auto above = std::partition(equal, end, [&](float e) { return e == pivot; });
+        const double below = std::accumulate(begin, equal, 0.0);
+        if (below > goal) {
+            end = equal;
+            continue;
+        }
+        const double here = below + double(pivot) * double(above - equal);
+        if (here > goal) break;
+        goal -= here;
+        begin = above;
     }
-    std::sort(errors.begin(), errors.end());
-    for (const float e : errors) {
-        before += double(e);
-        if (before > goal) return double(e);
-    }
-    return errors.empty() ? 0 : double(errors.back());  // rounding ate the last one
+    return double(pivot);  // the last looked at, where rounding ate the rest of the sum
+}
+
+/// All errors of one bin, in the order of the map.
+std::vector<float> errors_in(const Image<float>& map, std::size_t bin) {
+    using Some = std::vector<float>;
+    const auto parts = map_rows<Some>(map.height(), kRowsPerRun, [&](RowRun run) {
+        Some some;
+        for (int y = run.begin; y < run.end; ++y) {
+            std::copy_if(map.row(y), map.row(y) + map.width(), std::back_inserter(some),
+                         [&](float e) { return bin_of(e) == bin; });
+        }
+        return some;
+    });
+    Some all;
+    for (const Some& some : parts) all.insert(all.end(), some.begin(), some.end());
+    return all;
 }
 
 }  // namespace
@@ -78,7 +103,7 @@ void pool_errors(FlipResult& result) {
         double before = 0;
         std::size_t bin = 0;
         while (bin + 1 < kBins && before + all.in_bin[bin] <= goal) before += all.in_bin[bin++];
-        *quartiles[k] = crossing(map, bin, before, goal);
+        *quartiles[k] = crossing(errors_in(map, bin), goal - before);
     }
 }
 

@@ -43,13 +43,13 @@ TEST(FlipPool, OfTheLargestEverywhereIsOne) {
     EXPECT_EQ(r.median, 1);
 }
 
-// The bins are a short cut: sorting everything finds the same.
-TEST(FlipPool, AgreesWithSortingAll) {
+// The bins and the search are short cuts: sorting everything finds the same.
+void expect_as_sorted(double scale, double offset) {
     std::mt19937 bits(5);
     std::vector<float> errors;
     for (int i = 0; i < 90 * 311; ++i) {
         const float u = float(bits() >> 8) * 0x1p-24f;
-        errors.push_back(i % 3 == 0 ? 0 : u * u);
+        errors.push_back(i % 3 == 0 ? 0 : float(offset + scale * double(u * u)));
     }
     const FlipResult r = pooled(errors, 90);
     std::sort(errors.begin(), errors.end());
@@ -66,6 +66,12 @@ TEST(FlipPool, AgreesWithSortingAll) {
     EXPECT_EQ(r.first_quartile, quantile(0.25));
     EXPECT_EQ(r.median, quantile(0.5));
     EXPECT_EQ(r.third_quartile, quantile(0.75));
+}
+TEST(FlipPool, AgreesWithSortingAll) {
+    expect_as_sorted(1, 0);
+}
+TEST(FlipPool, AgreesWithSortingAllOfOneBin) {
+    expect_as_sorted(1e-4, 0.7);
 }
 
 }  // namespace
