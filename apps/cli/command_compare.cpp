@@ -158,8 +158,7 @@ void run(Session& session, const Arguments& a) {
         add_flip(out, *flipped, a.ppd);
     }
     if (wanted("lpips")) {
-        const LpipsOutcome lpips =
-            lpips_of(a.lpips_weights, a.lpips_net, reference, test, session.threads);
+        const LpipsOutcome lpips = lpips_of(a.lpips_weights, a.lpips_net, reference, test);
         if (lpips.distance) {
             out.metrics["lpips"] = {
                 {"distance", *lpips.distance}, {"net", lpips.net}, {"version", lpips.version}};

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <memory>
 #include <set>
-#include <thread>
 #include <utility>
 
 #include "learned_commands.h"
@@ -75,7 +74,7 @@ LearnedForecaster learned_forecaster(const std::string& path, const std::vector<
 }
 
 LpipsOutcome lpips_of(const std::string& weights, const std::string& net,
-                      const Image<SrgbF>& reference, const Image<SrgbF>& test, int threads) {
+                      const Image<SrgbF>& reference, const Image<SrgbF>& test) {
     LpipsOutcome out;
     if (weights.empty()) {
         out.why_not = "no weights: --lpips-weights names them, docs/models/metrics.md their making";
@@ -88,8 +87,7 @@ LpipsOutcome lpips_of(const std::string& weights, const std::string& net,
         throw Error(ErrorCode::bad_input,
                     fmt::format("holds the weights of {}, and {} was asked for", out.net, net),
                     weights);
-    use_cpu_for_networks(threads > 0 ? threads
-                                     : std::max(1, int(std::thread::hardware_concurrency())));
+    use_cpu_for_networks(1);  // its last digits depend on how many there are
     const int smallest = lpips_smallest(lpips.net());
     if (reference.width() < smallest || reference.height() < smallest) {
         out.why_not = fmt::format(

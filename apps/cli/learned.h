@@ -45,6 +45,6 @@ struct LpipsOutcome {
     std::string net, version, why_not;
 };
 LpipsOutcome lpips_of(const std::string& weights, const std::string& net,
-                      const Image<SrgbF>& reference, const Image<SrgbF>& test, int threads);
+                      const Image<SrgbF>& reference, const Image<SrgbF>& test);
 
 }  // namespace verdigris::cli

@@ -49,7 +49,7 @@ LearnedForecaster learned_forecaster(const std::string&, const std::vector<doubl
 }
 
 LpipsOutcome lpips_of(const std::string&, const std::string&, const Image<SrgbF>&,
-                      const Image<SrgbF>&, int) {
+                      const Image<SrgbF>&) {
     LpipsOutcome out;
     out.why_not = "this build has no libtorch; `scripts/build_learn.sh` makes one that has";
     return out;

@@ -54,13 +54,25 @@ grep -qE '^LPIPS +n/a ' "$scratch/aa.txt" || fail "LPIPS is not n/a"
 grep -q '"ms_ssim": null' "$scratch/small.json" || fail "MS-SSIM of a small picture is a number"
 grep -q 'at least 161 x 161' "$scratch/small.json" || fail "MS-SSIM does not say what it needs"
 
-# Weights that are none: by a build that computes LPIPS.
-echo hello >"$scratch/w.safetensors"
+# LPIPS: in a build that computes it a distance, elsewhere the reason why there is none.
+"$fixture" lpips "$scratch/squeeze.safetensors"
+echo hello >"$scratch/text.safetensors"
+weights=(--metric lpips --lpips-weights "$scratch/squeeze.safetensors")
 if "$verdigris" train --help | grep -q -- --epochs; then
-  expect 3 "w\.safetensors" "$verdigris" compare "$a" "$b" --metric lpips --lpips-weights "$scratch/w.safetensors"
+  "$verdigris" compare "$a" "$b" "${weights[@]}" --json >"$scratch/lpips.json" 2>/dev/null || fail "LPIPS failed"
+  grep -qE '"distance": 0\.0*[1-9]' "$scratch/lpips.json" || fail "LPIPS is no distance"
+  "$verdigris" compare "$a" "$b" "${weights[@]}" --threads 1 --json 2>/dev/null | cmp -s - "$scratch/lpips.json" ||
+    fail "LPIPS depends on the number of threads"
+  grep -q '"net": "squeeze"' "$scratch/lpips.json" || fail "LPIPS does not name its net"
+  "$verdigris" compare "$a" "$a" "${weights[@]}" --lpips-net squeeze >"$scratch/lpips.txt" || fail "LPIPS failed"
+  grep -qE '^LPIPS +0\.000000 .*version 0\.1, squeeze' "$scratch/lpips.txt" || fail "LPIPS of equal pictures"
+  expect 3 "squeeze\.safetensors.*holds the weights of squeeze, and vgg" \
+    "$verdigris" compare "$a" "$b" "${weights[@]}" --lpips-net vgg
+  expect 3 "text\.safetensors" "$verdigris" compare "$a" "$b" --metric lpips --lpips-weights "$scratch/text.safetensors"
+  "$verdigris" compare "$a" "$b" --metric lpips >"$scratch/lpips.txt" || fail "LPIPS without weights is an error"
+  grep -q 'n/a  no weights' "$scratch/lpips.txt" || fail "it does not ask for weights"
 else
-  "$verdigris" compare "$a" "$b" --metric lpips --lpips-weights "$scratch/w.safetensors" >"$scratch/lpips.txt" ||
-    fail "weights that cannot be used here are no error"
+  "$verdigris" compare "$a" "$b" "${weights[@]}" >"$scratch/lpips.txt" || fail "LPIPS is an error here"
   grep -q 'n/a  this build has no libtorch' "$scratch/lpips.txt" || fail "it does not say why there is no LPIPS"
 fi
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "verdigris/error.h"
@@ -95,6 +96,13 @@ torch::Tensor directions(const torch::Tensor& x) {
     return x / (x.square().sum(1, true).sqrt_() + kTiny);
 }
 
+/// torch::mean cuts its sum by the number of threads.
+double mean_in_order(const torch::Tensor& map) {
+    const torch::Tensor flat = map.contiguous();
+    const float* values = flat.data_ptr<float>();
+    return std::accumulate(values, values + flat.numel(), 0.0) / double(flat.numel());
+}
+
 }  // namespace
 
 struct Lpips::Parts {
@@ -158,7 +166,7 @@ double Lpips::distance(ImageView<const SrgbF> first, ImageView<const SrgbF> seco
         if (!layer.seen) continue;
         const torch::Tensor& weight = parts_->weights.at(fmt::format("lin{}.weight", head++));
         const torch::Tensor change = (directions(a) - directions(b)).square_();
-        sum += torch::conv2d(change, weight).mean(torch::kFloat64).item<double>();
+        sum += mean_in_order(torch::conv2d(change, weight));
     }
     return sum;
 }
