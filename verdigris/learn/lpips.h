@@ -37,11 +37,11 @@ class Lpips {
 
     LpipsNet net() const;
 
-    /// 0 for equal pictures; about 0.7 for very different ones. Both encoded sRGB, limited to
-    /// [0, 1], NaN as 0. Not symmetric only by rounding. Throws Error{bad_input} if the sizes
-    /// differ or a side is below lpips_smallest(). The tenth digit depends on libtorch's threads
-    /// (use_cpu_for_networks). Whole layers are held: alex 0.4 GB and squeeze 1.4 GB for 1920 x
-    /// 1080, vgg 1.4 GB for a quarter of that. One caller at a time.
+    /// 0 for equal pictures; larger is further apart, without an upper end. Both encoded sRGB,
+    /// limited to [0, 1], NaN as 0. Symmetric but for rounding. Throws Error{bad_input} if the
+    /// sizes differ or a side is below lpips_smallest(). The tenth digit depends on libtorch's
+    /// threads (use_cpu_for_networks). Whole layers are held: alex 0.4 GB and squeeze 1.4 GB for
+    /// 1920 x 1080, vgg 1.4 GB for a quarter of that. One caller at a time.
     double distance(ImageView<const SrgbF> first, ImageView<const SrgbF> second) const;
 
   private:

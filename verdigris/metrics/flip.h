@@ -30,8 +30,8 @@ struct FlipResult {
     double first_quartile = 0, median = 0, third_quartile = 0;
 };
 
-/// Both encoded sRGB; limited to [0, 1], NaN counts as 0. Not quite symmetric only by rounding;
-/// equal pictures give exactly 0. Same bytes at any thread count.
+/// Both encoded sRGB; limited to [0, 1], NaN counts as 0. Symmetric but for rounding; equal
+/// pictures give exactly 0. Same bytes at any thread count.
 /// Throws Error{bad_input} if the sizes differ or are 0, Error{usage} for pixels per degree out of
 /// their range. Cost: ~40 ns a pixel and core (bench/flip_bench.cpp); memory: the map.
 FlipResult flip(ImageView<const SrgbF> reference, ImageView<const SrgbF> test,
