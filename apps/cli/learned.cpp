@@ -13,6 +13,7 @@
 #include "verdigris/error.h"
 #include "verdigris/learn/checkpoint.h"
 #include "verdigris/learn/checkpoint_entrant.h"
+#include "verdigris/learn/lpips.h"
 
 namespace verdigris::cli {
 
@@ -71,6 +72,33 @@ LearnedForecaster learned_forecaster(const std::string& path, const std::vector<
     const std::string name = to_string(checkpoint.network->config().kind);
     return {as_forecaster(checkpoint.network, name, {units.begin(), units.end()}),
             checkpoint.network->config().context, std::move(notes)};
+}
+
+LpipsOutcome lpips_of(const std::string& weights, const std::string& net,
+                      const Image<SrgbF>& reference, const Image<SrgbF>& test) {
+    LpipsOutcome out;
+    if (weights.empty()) {
+        out.why_not = "no weights: --lpips-weights names them, docs/models/metrics.md their making";
+        return out;
+    }
+    const Lpips lpips{weights};
+    out.net = to_string(lpips.net());
+    out.version = kLpipsVersion;
+    if (!net.empty() && net != out.net)
+        throw Error(ErrorCode::bad_input,
+                    fmt::format("holds the weights of {}, and {} was asked for", out.net, net),
+                    weights);
+    use_cpu_for_networks(1);  // its last digits depend on how many there are
+    const int smallest = lpips_smallest(lpips.net());
+    if (reference.width() < smallest || reference.height() < smallest) {
+        out.why_not = fmt::format(
+            "LPIPS of {} needs pictures of at least {} x {} pixels; these "
+            "have {} x {}",
+            out.net, smallest, smallest, reference.width(), reference.height());
+        return out;
+    }
+    out.distance = lpips.distance(reference, test);
+    return out;
 }
 
 }  // namespace verdigris::cli

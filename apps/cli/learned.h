@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,5 +36,15 @@ struct LearnedForecaster {
 };
 LearnedForecaster learned_forecaster(const std::string& path, const std::vector<double>& horizons,
                                      const Observation& observation);
+
+/// LPIPS of two pictures, or why there is none: no weights were given, no libtorch in this build,
+/// or pictures too small. Weights that cannot be used throw as Lpips does; `net` "" is whichever
+/// they are of.
+struct LpipsOutcome {
+    std::optional<double> distance;
+    std::string net, version, why_not;
+};
+LpipsOutcome lpips_of(const std::string& weights, const std::string& net,
+                      const Image<SrgbF>& reference, const Image<SrgbF>& test);
 
 }  // namespace verdigris::cli

@@ -48,4 +48,11 @@ LearnedForecaster learned_forecaster(const std::string&, const std::vector<doubl
     absent();
 }
 
+LpipsOutcome lpips_of(const std::string&, const std::string&, const Image<SrgbF>&,
+                      const Image<SrgbF>&) {
+    LpipsOutcome out;
+    out.why_not = "this build has no libtorch; `scripts/build_learn.sh` makes one that has";
+    return out;
+}
+
 }  // namespace verdigris::cli

@@ -2,6 +2,7 @@
 // Makes the recordings that the program's tests run on:
 //   verdigris_fixture plate DIR FRAMES SIDE   a copper plate that tarnishes in front of a backdrop
 //   verdigris_fixture hostile DIR             one folder or file per kind of bad input
+//   verdigris_fixture lpips FILE              weights of LPIPS of "squeeze" that mean nothing
 // Synthetic: the tarnish is a color path through thin-film colors, faster where a smooth noise
 // says so. It is a test picture, not the simulator.
 #include <ImfRgbaFile.h>
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "verdigris/color/convert.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/png.h"
+#include "verdigris/files/safetensors.h"
 
 namespace {
 using namespace verdigris;
@@ -153,6 +156,48 @@ void hostile(const fs::path& root) {
     write_file(root / "truncated_png" / "0007.png", std::span(whole).first(whole.size() / 2));
 }
 
+/// Of the right names and shapes, and of sizes at which every layer still says something.
+void lpips_weights(const fs::path& path) {
+    SafetensorsFile file;
+    file.metadata = {{"net", "squeeze"}, {"version", "0.1"}};
+    const auto add = [&](const std::string& name, const std::vector<std::int64_t>& shape,
+                         double low, double high) {
+        std::int64_t count = 1;
+        for (const std::int64_t side : shape) count *= side;
+        std::vector<float> values;
+        for (std::int64_t i = 0; i < count; ++i)
+            values.push_back(
+                float(low + (high - low) * hash01(std::uint64_t(i), file.tensors.size(), 9)));
+        file.tensors.push_back(float_tensor(name, shape, values));
+    };
+    const auto convolution = [&](const std::string& name, int in, int out, int kernel) {
+        const double spread = std::sqrt(6.0 / (in * kernel * kernel));
+        add(name + ".weight", {out, in, kernel, kernel}, -spread, spread);
+        add(name + ".bias", {out}, 0, 0.1);
+    };
+    convolution("features.0", 3, 64, 3);
+    int in = 64;
+    for (const auto& [index, squeezed, half] :
+         std::initializer_list<std::array<int, 3>>{{3, 16, 64},
+                                                   {4, 16, 64},
+                                                   {6, 32, 128},
+                                                   {7, 32, 128},
+                                                   {9, 48, 192},
+                                                   {10, 48, 192},
+                                                   {11, 64, 256},
+                                                   {12, 64, 256}}) {
+        const std::string name = "features." + std::to_string(index);
+        convolution(name + ".squeeze", in, squeezed, 1);
+        convolution(name + ".expand1x1", squeezed, half, 1);
+        convolution(name + ".expand3x3", squeezed, half, 3);
+        in = 2 * half;
+    }
+    int head = 0;
+    for (const int channels : {64, 128, 256, 384, 384, 512, 512})
+        add("lin" + std::to_string(head++) + ".weight", {1, channels, 1, 1}, 0, 1);
+    write_safetensors(path, file);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -169,10 +214,15 @@ int main(int argc, char** argv) {
             hostile(argv[2]);
             return 0;
         }
+        if (kind == "lpips" && argc == 3) {
+            lpips_weights(argv[2]);
+            return 0;
+        }
     } catch (const std::exception& e) {
         std::fprintf(stderr, "verdigris_fixture: %s\n", e.what());
         return 1;
     }
-    std::fprintf(stderr, "usage: verdigris_fixture plate DIR FRAMES SIDE | hostile DIR\n");
+    std::fprintf(stderr,
+                 "usage: verdigris_fixture plate DIR FRAMES SIDE | hostile DIR | lpips FILE\n");
     return 2;
 }

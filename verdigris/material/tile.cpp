@@ -18,9 +18,9 @@
 #define HWY_TARGET_INCLUDE "verdigris/material/tile.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 // After foreach_target, which includes this file again for each target.
+#include "verdigris/color/pow-inl.h"
 #include "verdigris/forecast/trajectory_row-inl.h"
 #include "verdigris/material/change-inl.h"
-#include "verdigris/material/pow-inl.h"
 #include "verdigris/material/row_rings.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // x^e for vectors, through log2 and exp2: relative error below 1e-6 for x in [0, 1] (pow_test.cpp).
-#if defined(VERDIGRIS_MATERIAL_POW_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef VERDIGRIS_MATERIAL_POW_INL_H_
-#undef VERDIGRIS_MATERIAL_POW_INL_H_
+#if defined(VERDIGRIS_COLOR_POW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VERDIGRIS_COLOR_POW_INL_H_
+#undef VERDIGRIS_COLOR_POW_INL_H_
 #else
-#define VERDIGRIS_MATERIAL_POW_INL_H_
+#define VERDIGRIS_COLOR_POW_INL_H_
 #endif
 
 #include <cstdint>

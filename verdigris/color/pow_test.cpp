@@ -6,10 +6,10 @@
 #include <vector>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "verdigris/material/pow_test.cpp"
+#define HWY_TARGET_INCLUDE "verdigris/color/pow_test.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 // After foreach_target, which includes this file again for each target.
-#include "verdigris/material/pow-inl.h"
+#include "verdigris/color/pow-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace verdigris {
