@@ -132,6 +132,20 @@ TEST_F(ForecastIo, RefusesAFolderItCannotWrite) {
     }
 }
 
+TEST_F(ForecastIo, ALawWithNodesRoundTripsAndMustIncrease) {
+    SavedForecast saved = example(2);
+    saved.forecast.trajectory.law.nodes = {{1, 0.3, -0.1}, {2.5, 1.0 / 3, 0.2}, {50, 2, 0.25}};
+    write_forecast(saved, folder_);
+    const SavedForecast read = read_forecast(folder_);
+    EXPECT_EQ(read.forecast.trajectory.law.nodes, saved.forecast.trajectory.law.nodes);
+    EXPECT_TRUE(same_bytes(read.forecast.at(7.5), saved.forecast.at(7.5)));
+    std::string text = read_text(folder_ / "forecast.json");
+    const auto at = text.find("2.5");
+    ASSERT_NE(at, std::string::npos);
+    write_file(folder_ / "forecast.json", text.replace(at, 3, "0.5"));
+    EXPECT_THROW(read_forecast(folder_), Error);
+}
+
 TEST(HorizonLabel, Sorts) {
     EXPECT_EQ(horizon_label(5), "u005");
     EXPECT_EQ(horizon_label(10), "u010");

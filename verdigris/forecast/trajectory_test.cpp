@@ -201,5 +201,35 @@ TEST(Trajectory, RefusesWhatMakesNoSense) {
     EXPECT_THROW(out_of_gamut_share(one_channel({0.5, 0, 0}, 1, 5), 1, Mask(2, 2)), Error);
 }
 
+TEST(Trajectory, ALawWithNodesIsLinearBetweenThem) {
+    TimeLaw law{2, 5, {{1, 0.5, -1}, {3, 1.5, 1}}};
+    EXPECT_EQ(law.phi(0), 0);
+    EXPECT_EQ(law.phi(0.5), 0.25);
+    EXPECT_EQ(law.phi2(2), 0);
+    EXPECT_EQ(law.phi(3), 1.5);
+    EXPECT_EQ(law.phi2(100), 1);
+}
+
+TEST(Trajectory, ALawWithNodesIsShortenedIntoTheRange) {
+    for (const bool clamp : {true, false}) {
+        Trajectory t;
+        t.base = paint(19, 3, [](int, int) { return SrgbF{0.5f, 0.8f, 0.2f}; });
+        t.rate = paint(19, 3, [](int, int) { return SrgbF{0.1f, 0.2f, 0.0f}; });
+        t.curvature = paint(19, 3, [](int, int) { return SrgbF{0.0f, 0.0f, 0.1f}; });
+        t.law = {2, 5, {{1, 1, 1}, {4, 2, 2}}};
+        t.clamp = clamp;
+        Image<SrgbF> out;
+        evaluate_trajectory(t, 4, out);
+        const float share = clamp ? 0.5f : 1.0f;  // green reaches 1 half way
+        for (const SrgbF& c : out.pixels()) {
+            EXPECT_NEAR(c.r, 0.5f + share * 0.2f, 1e-6);
+            EXPECT_NEAR(c.g, 0.8f + share * 0.4f, 1e-6);
+            EXPECT_NEAR(c.b, 0.2f + share * 0.2f, 1e-6);
+        }
+        EXPECT_EQ(out_of_gamut_share(t, 4, Mask()), 1);
+        EXPECT_EQ(out_of_gamut_share(t, 0.5, Mask()), 0);
+    }
+}
+
 }  // namespace
 }  // namespace verdigris

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/band_trend.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "verdigris/error.h"
+#include "verdigris/forecast/backdrop_light.h"
+#include "verdigris/forecast/band_split.h"
+#include "verdigris/forecast/testing.h"
+#include "verdigris/pixels/parallel_rows.h"
+
+namespace verdigris {
+namespace {
+
+constexpr int kSide = 64;
+
+/// A plate on a backdrop: frame t of a scene that goes on for ever, without noise.
+Image<SrgbF> plate(double change, double light = 1) {
+    return paint(kSide, kSide, [&](int x, int y) {
+        const bool specimen = x >= 16 && y >= 8 && y < 56;
+        SrgbF c = specimen ? texture(x, y) : SrgbF{0.5f, 0.5f, 0.52f};
+        if (specimen) {
+            const double local = change * (1 + 0.5 * std::sin(x * 0.2) * std::cos(y * 0.15));
+            c = {float(c.r - 0.010 * local), float(c.g - 0.006 * local),
+                 float(c.b - 0.002 * local)};
+        }
+        // As good as linear light for factors near 1.
+        const float f = float(std::pow(light, 1 / 2.2));
+        return SrgbF{c.r * f, c.g * f, c.b * f};
+    });
+}
+
+Mask plate_mask() {
+    Mask mask(kSide, kSide);
+    for (int y = 8; y < 56; ++y)
+        for (int x = 16; x < kSide; ++x) mask(x, y) = kInside;
+    return mask;
+}
+
+using Scene = std::function<Image<SrgbF>(int)>;  // frame t, without noise
+
+Context seen(const Scene& scene, int n, double sigma = 0.003, unsigned seed = 1) {
+    std::mt19937 random(seed);
+    Context c;
+    for (int t = 0; t < n; ++t) {
+        c.frames.push_back(scene(t));
+        add_noise(c.frames.back(), sigma, random);
+    }
+    c.specimen = plate_mask();
+    c.sigma = sigma;
+    c.tau = 2.4 * sigma;
+    return c;
+}
+
+/// Mean square error over the specimen and units 1 to 10, against that of holding still.
+double relative_error(const Scene& scene, const Context& context) {
+    const Forecast f = band_trend().forecast(context);
+    const Mask where = plate_mask();
+    double ours = 0, still = 0;
+    for (int k = 1; k <= 10; ++k) {
+        const Image<SrgbF> truth = scene(context.length() - 1 + k), frame = f.at(k);
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                if (where(x, y) == 0) continue;
+                const auto square = [](SrgbF a, SrgbF b) {
+                    const double r = double(a.r - b.r), g = double(a.g - b.g),
+                                 c = double(a.b - b.b);
+                    return r * r + g * g + c * c;
+                };
+                ours += square(frame(x, y), truth(x, y));
+                still += square(context.frames.back()(x, y), truth(x, y));
+            }
+        }
+    }
+    return ours / still;
+}
+
+TEST(BandTrend, CarriesOnALocalDrift) {
+    for (const int n : {5, 10}) {
+        const Scene scene = [](int t) { return plate(t); };
+        EXPECT_LT(relative_error(scene, seen(scene, n)), 0.1) << n;
+    }
+}
+
+TEST(BandTrend, SlowsDownWithTheSpecimen) {
+    const Scene scene = [](int t) { return plate(8 * std::sqrt(1 + t)); };
+    EXPECT_LT(relative_error(scene, seen(scene, 5)), 0.1);
+}
+
+TEST(BandTrend, HoldsAStillSceneAndTakesNoiseBack) {
+    const Scene scene = [](int) { return plate(0); };
+    for (const int n : {5, 10})
+        for (const unsigned seed : {1u, 2u, 3u})
+            EXPECT_LT(relative_error(scene, seen(scene, n, 0.003, seed)), 0.95) << n << seed;
+}
+
+TEST(BandTrend, LightThatTheBackdropShowsIsNotAging) {
+    const double light[] = {1, 1.03, 0.98, 1.05, 1.08, 1.12};
+    const Scene scene = [&](int t) { return plate(t, light[std::min(t, 5)]); };
+    EXPECT_LT(relative_error(scene, seen(scene, 6)), 0.2);
+}
+
+TEST(BandTrend, NeverMuchWorseThanHoldingStill) {
+    const auto still = [] { return plate(0); };
+    // A light is switched on; the tripod moves; a hand; a flash. The specimen does not change.
+    const auto moved = [&] {
+        const Image<SrgbF> from = still();
+        return paint(kSide, kSide,
+                     [&](int x, int y) { return from(std::min(x + 3, kSide - 1), y); });
+    };
+    const auto hand = [&] {
+        Image<SrgbF> frame = still();
+        for (int y = 20; y < 40; ++y)
+            for (int x = 20; x < 50; ++x) frame(x, y) = {0.1f, 0.08f, 0.06f};
+        return frame;
+    };
+    for (const int n : {5, 10}) {
+        for (int at = 1; at < n; ++at) {
+            const Scene scenes[] = {
+                [&](int t) { return plate(0, t < at ? 1 : 1.2); },
+                [&](int t) { return t < at ? still() : moved(); },
+                [&](int t) { return t == at && at < n - 1 ? hand() : still(); },
+                [&](int t) { return plate(0, t == at && at < n - 1 ? 1.5 : 1); },
+            };
+            for (std::size_t i = 0; i < std::size(scenes); ++i) {
+                EXPECT_LT(relative_error(scenes[i], seen(scenes[i], n)), 1.02)
+                    << "scene " << i << " at " << at << " of " << n;
+            }
+        }
+    }
+}
+
+TEST(BandTrend, SaysWhichFrameDoesNotCount) {
+    const Scene scene = [](int t) {
+        Image<SrgbF> frame = plate(0.3 * t);
+        if (t == 2)
+            for (SrgbF& c : frame.pixels()) c = {0.1f, 0.08f, 0.06f};
+        return frame;
+    };
+    Context context = seen(scene, 6);
+    context.specimen = Mask();  // without a backdrop nothing else takes the dark away
+    EXPECT_NE(
+        band_trend().forecast(context).explanation.find("Frame 3 of 6 is unlike its neighbors"),
+        std::string::npos)
+        << band_trend().forecast(context).explanation;
+}
+
+TEST(BandTrend, TellsHowItDidOnTheEndOfTheContext) {
+    const Scene scene = [](int t) { return plate(t); };
+    EXPECT_NE(
+        band_trend().forecast(seen(scene, 6)).explanation.find("better than by holding still"),
+        std::string::npos);
+    EXPECT_EQ(band_trend({.explain = false}).forecast(seen(scene, 6)).explanation, "");
+}
+
+TEST(BandTrend, StartsAtTheLastFrameAndMovesNothingElse) {
+    const Scene scene = [](int t) { return plate(3 * t); };
+    const Context context = seen(scene, 5);
+    const Forecast f = band_trend().forecast(context);
+    EXPECT_TRUE(same_bytes(f.at(0), context.frames.back()));
+    const Image<SrgbF> later = f.at(50);
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            EXPECT_EQ(std::memcmp(&later(x, y), &context.frames.back()(x, y), sizeof(SrgbF)), 0);
+        }
+    }
+    for (const SrgbF& c : later.pixels())
+        EXPECT_TRUE(c.r >= 0 && c.r <= 1 && c.g >= 0 && c.g <= 1 && c.b >= 0 && c.b <= 1);
+}
+
+TEST(BandTrend, ABackdropThatIsKnownIsHeldThoughAllIsForecast) {
+    const Scene scene = [](int t) { return plate(t, 1 + 0.02 * t); };
+    Context context = seen(scene, 5);
+    context.backdrop = plate_mask();
+    for (auto& v : context.backdrop.pixels()) v = v ? 0 : kInside;
+    context.specimen = Mask();
+    const Image<SrgbF> later = band_trend().forecast(context).at(10);
+    EXPECT_EQ(std::memcmp(&later(3, 3), &context.frames.back()(3, 3), sizeof(SrgbF)), 0);
+    EXPECT_LT(later(40, 30).r, context.frames.back()(40, 30).r - 0.02f);
+}
+
+TEST(BandTrend, SameBytesAtAnyNumberOfThreads) {
+    const Scene scene = [](int t) { return plate(t); };
+    const Context context = seen(scene, 6);
+    set_thread_count(1);
+    const Forecast one = band_trend().forecast(context);
+    set_thread_count(0);
+    const Forecast all = band_trend().forecast(context);
+    EXPECT_TRUE(same_bytes(one.at(7.5), all.at(7.5)));
+}
+
+TEST(BandTrend, WhatCannotMoveIsHeld) {
+    const Scene scene = [](int) { return plate(0); };
+    Context same = seen(scene, 5, 0);
+    EXPECT_EQ(band_trend().forecast(same).trajectory.law.order, 0);
+    Context one = seen(scene, 1);
+    EXPECT_EQ(band_trend().forecast(one).trajectory.law.order, 0);
+    Context two = seen(scene, 2);
+    EXPECT_TRUE(std::isfinite(band_trend().forecast(two).at(100)(30, 30).r));
+    Context no_pixel = seen(scene, 5);
+    no_pixel.clipped = Mask(kSide, kSide);
+    for (auto& v : no_pixel.clipped.pixels()) v = kInside;
+    const Forecast f = band_trend().forecast(no_pixel);
+    EXPECT_TRUE(same_bytes(f.at(20), no_pixel.frames.back()));
+    EXPECT_FALSE(f.explanation.empty());
+}
+
+TEST(BandTrend, ALongContextCountsFromItsEnd) {
+    const Scene scene = [](int t) { return plate(0.1 * t); };
+    const Context context = seen(scene, 60);
+    const Forecast f = band_trend().forecast(context);
+    EXPECT_EQ(f.context_length, 60);
+    EXPECT_LT(relative_error(scene, context), 0.5);
+}
+
+TEST(BackdropLight, IsFoundThoughAMinorityMoves) {
+    Context c;
+    c.specimen = plate_mask();
+    for (const double gain : {0.8, 1.1, 1.0}) {
+        Image<SrgbF> frame = relit(plate(0), {gain, 1.02 * gain, 0.97 * gain});
+        if (gain > 1)
+            for (int y = 0; y < 20; ++y)
+                for (int x = 0; x < 10; ++x) frame(x, y) = {0.9f, 0.1f, 0.1f};
+        c.frames.push_back(std::move(frame));
+    }
+    const auto light = backdrop_light(c);
+    EXPECT_NEAR(light[0][0], 1 / 0.8, 2e-3);
+    EXPECT_NEAR(light[1][1], 1 / 1.1, 2e-3);
+    EXPECT_EQ(light[2][2], 1);
+    EXPECT_LT(largest_difference(relit(c.frames[0], light[0]), c.frames[2]), 1e-3);
+}
+
+TEST(MaskedGaussian, KeepsAConstantAndSeesNothingOutside) {
+    const Mask mask = plate_mask();
+    Field field(mask.pixel_count(), 0);
+    for (std::size_t i = 0; i < field.size(); ++i) field[i] = mask.pixels()[i] ? 0.25f : 0;
+    for (const int sigma : {1, 2, 4, 8}) {
+        Field out;
+        MaskedGaussian(mask, sigma).mean(field, out);
+        for (std::size_t i = 0; i < out.size(); ++i)
+            ASSERT_NEAR(out[i], mask.pixels()[i] ? 0.25 : 0, 1e-6) << sigma;
+    }
+}
+
+TEST(MaskedGaussian, IsTheGaussianMean) {
+    Mask mask(kSide, kSide);
+    for (auto& v : mask.pixels()) v = kInside;
+    Field field(mask.pixel_count(), 0);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x)
+            field[std::size_t(y * kSide + x)] = float(std::sin(0.2 * x) + std::cos(0.13 * y));
+    for (const int sigma : {1, 2, 4}) {
+        Field out;
+        MaskedGaussian(mask, sigma).mean(field, out);
+        double sum = 0, weights = 0;  // at the middle, by the definition
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                const double w = std::exp(-0.5 * ((x - 32) * (x - 32) + (y - 32) * (y - 32)) /
+                                          double(sigma * sigma));
+                sum += w * double(field[std::size_t(y * kSide + x)]), weights += w;
+            }
+        }
+        EXPECT_NEAR(out[32 * kSide + 32], sum / weights, sigma < 4 ? 5e-3 : 4e-2) << sigma;
+    }
+}
+
+}  // namespace
+}  // namespace verdigris

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/trend_models.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace verdigris {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kTenUnits = 9, kHundredUnits = int(kTrendUnits.size()) - 1;
+
+/// Of one series that every pixel follows.
+Trend of_series(const VectorXd& increments, double count = 30) {
+    return TrendModels(int(increments.size())).trend(increments * increments.transpose(), count);
+}
+
+TEST(TrendModels, ASteadyDriftGoesOnAndSlowsDown) {
+    const VectorXd d = VectorXd::Ones(4);
+    const VectorXd ahead = of_series(d).weights * d;
+    EXPECT_NEAR(ahead[0], 1, 0.05);
+    EXPECT_GT(ahead[kTenUnits], 7);
+    EXPECT_LT(ahead[kTenUnits], 10.1);
+    for (Eigen::Index u = 1; u < ahead.size(); ++u) EXPECT_GE(ahead[u], ahead[u - 1]);
+    EXPECT_LT(ahead[kHundredUnits], 80);
+}
+
+TEST(TrendModels, ADriftThatDiesAwayIsSeenToDoSo) {
+    VectorXd d(4);
+    for (int i = 0; i < 4; ++i) d[i] = std::exp(-0.5 * i);
+    double truth = 0;
+    for (int i = 4; i < 14; ++i) truth += std::exp(-0.5 * i);
+    const VectorXd ahead = of_series(d).weights * d;
+    EXPECT_NEAR(ahead[kTenUnits], truth, 0.35 * truth);
+}
+
+TEST(TrendModels, ABendIsFollowed) {
+    // Increments that grow as those of a parabola do.
+    VectorXd d(9);
+    for (int i = 0; i < 9; ++i) d[i] = 1 + 0.2 * i;
+    const VectorXd ahead = of_series(d).weights * d;
+    EXPECT_NEAR(ahead[0], 2.8, 0.15);
+    EXPECT_GT(ahead[4], 5 * 2.7);  // units 1 to 5, if the last increment just went on: 13
+}
+
+TEST(TrendModels, NoiseIsTakenBackAndNotCarriedOn) {
+    // Many pixels of one level each, and white noise.
+    const int n = 6;
+    std::mt19937 random(7);
+    std::normal_distribution<double> noise;
+    MatrixXd gram = MatrixXd::Zero(n - 1, n - 1);
+    std::vector<VectorXd> changes;
+    std::vector<double> truths;
+    for (int pixel = 0; pixel < 4000; ++pixel) {
+        VectorXd e(n);
+        for (double& v : e) v = noise(random);
+        const VectorXd d = e.tail(n - 1) - e.head(n - 1);
+        gram += d * d.transpose() / 4000;
+        changes.push_back(d);
+        truths.push_back(-e[n - 1]);
+    }
+    const Trend trend = TrendModels(n - 1).trend(gram, 100);
+    for (const int unit : {0, kTenUnits, kHundredUnits}) {
+        double ours = 0, still = 0;
+        for (std::size_t i = 0; i < changes.size(); ++i) {
+            const double error = trend.weights.row(unit).dot(changes[i]) - truths[i];
+            ours += error * error;
+            still += truths[i] * truths[i];
+        }
+        EXPECT_LT(ours, 0.35 * still) << unit;  // the mean of six frames leaves 1/6
+    }
+}
+
+TEST(TrendModels, AStepIsNotCarriedOn) {
+    for (int at = 0; at < 9; ++at) {
+        VectorXd d = 1e-3 * VectorXd::Ones(9);
+        d[at] = 1;
+        const Trend trend = of_series(d);
+        EXPECT_GT(trend.event, 0.9) << at;
+        if (!trend.outlier) EXPECT_EQ(trend.event_frame, at + 1);
+        EXPECT_NEAR((trend.weights * d)[kTenUnits], 0.008, 0.03) << at;
+    }
+}
+
+TEST(TrendModels, AnOutlyingFrameIsSetAside) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0, 0.01);
+    for (int at = 1; at < 9; ++at) {
+        VectorXd d(9);
+        for (double& v : d) v = noise(random);
+        d[at - 1] += 1, d[at] -= 1;
+        const Trend trend = of_series(d);
+        EXPECT_GT(trend.event, 0.9) << at;
+        EXPECT_TRUE(trend.outlier) << at;
+        EXPECT_EQ(trend.event_frame, at);
+        EXPECT_NEAR((trend.weights * d)[kTenUnits], 0, 0.15) << at;
+    }
+}
+
+TEST(TrendModels, TheUnitOfColorDoesNotMatter) {
+    VectorXd d(4);
+    d << 1, 0.8, 0.9, 0.7;
+    const MatrixXd one = of_series(d).weights, tiny = of_series(1e-7 * d).weights;
+    EXPECT_LT((one - tiny).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(TrendModels, OneIncrementIsEnoughToAnswer) {
+    const VectorXd d = VectorXd::Ones(1);
+    const VectorXd ahead = of_series(d, 2).weights * d;
+    EXPECT_TRUE(ahead.allFinite());
+    EXPECT_LT(std::abs(ahead[0]), 1);  // of one increment it cannot know that it goes on
+}
+
+}  // namespace
+}  // namespace verdigris
