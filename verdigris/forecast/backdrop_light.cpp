@@ -59,6 +59,7 @@ std::vector<std::array<double, 3>> backdrop_light(const Context& context) {
 
 Image<SrgbF> relit(const Image<SrgbF>& frame, const std::array<double, 3>& gain) {
     // By a table: the curve is smooth, and two powers per channel would cost more than all else.
+    if (gain == std::array<double, 3>{1, 1, 1}) return frame.clone();
     std::array<std::vector<float>, 3> factor;
     for (std::size_t k = 0; k < 3; ++k) {
         for (int i = 0; i <= kTable; ++i) {

@@ -17,6 +17,7 @@ struct Slowing {
     double kappa, prior;
 };
 constexpr Slowing kSlowing[] = {{0, .15}, {.02, .20}, {.05, .25}, {.1, .20}, {.2, .12}, {.5, .08}};
+constexpr double kDoubt = .01;  // per unit ahead: no drift is trusted to stay as it is for ever
 constexpr double kWandering[] = {0, .3, .6, .8, .92, .98, 1};
 constexpr double kBending[] = {.5, .75, .85, .92, .96, .99};
 constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
@@ -59,7 +60,7 @@ TrendModels::TrendModels(int increments) : increments_(increments) {
             double sum = 0;
             for (int u = 0, ahead = 1; u < units; ++u) {
                 for (; ahead <= int(kTrendUnits[std::size_t(u)]); ++ahead)
-                    sum += size(q - 1 - i) * size(-ahead) *
+                    sum += size(q - 1 - i) * size(-ahead) * std::exp(-kDoubt * ahead) *
                            covariance_at(bending, rho, q - 1 - i + ahead);
                 future(u, i) = sum;
             }

@@ -81,7 +81,9 @@ TEST(TrendModels, AStepIsNotCarriedOn) {
         d[at] = 1;
         const Trend trend = of_series(d);
         EXPECT_GT(trend.event, 0.9) << at;
-        if (!trend.outlier) EXPECT_EQ(trend.event_frame, at + 1);
+        if (!trend.outlier) {
+            EXPECT_EQ(trend.event_frame, at + 1);
+        }
         EXPECT_NEAR((trend.weights * d)[kTenUnits], 0.008, 0.03) << at;
     }
 }
