@@ -97,7 +97,7 @@ export class Bake {
       u_reach: { value: reach },
       u_order: { value: trajectory.kind === "law" ? trajectory.order : 0 },
       u_clamp: { value: trajectory.kind === "law" && trajectory.clamp },
-      u_tabulated: { value: trajectory.kind === "law" && trajectory.nodes !== null },
+      u_tabulated: { value: trajectory.kind === "law" && !!trajectory.nodes },
       u_phi: { value: new THREE.Vector2() },
     });
     const mix = () => ({ u_from: { value: null }, u_to: { value: null }, u_mix: { value: 0 } });

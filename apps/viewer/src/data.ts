@@ -7,7 +7,7 @@ export interface MapOrigin { map: string; origin: string; sentence: string }
 export interface LawDocument {
   kind: "law"; order: number; context: number; clamp: boolean;
   /** [horizon, phi, phi2], linear from 0 to and between them; null: a polynomial of order 0 to 2. */
-  nodes: [number, number, number][] | null;
+  nodes?: [number, number, number][] | null;
   base: Blob16; rate: Blob16; curvature: Blob16 | null;
 }
 export interface FramesDocument { kind: "frames"; base: Blob16; horizons: number[]; frames: Blob16[] }
