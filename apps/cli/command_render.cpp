@@ -28,6 +28,7 @@ constexpr double kStillShare = 0.1;
 struct Arguments {
     std::string input, output, scene = "sphere", light = "studio", motion;
     int size = 1024;
+    bool whole = false;
     std::vector<double> horizons;
     double exposure = 0, seconds = 4, fps = 24, tolerance = RenderOptions().tolerance;
 };
@@ -54,8 +55,9 @@ Setting setting_of(const Arguments& a, double aspect) {
     if (const auto kind = scene_kind_from(a.scene)) return make_setting(*kind, aspect);
     const fs::path path = a.scene;
     if (path.extension() != ".glb") {
-        throw Error(ErrorCode::usage,
-                    fmt::format("--scene is plate, sphere, drape or a .glb; '{}' is none", a.scene));
+        throw Error(
+            ErrorCode::usage,
+            fmt::format("--scene is plate, sphere, drape or a .glb; '{}' is none", a.scene));
     }
     return make_setting(read_model(path));
 }
@@ -103,8 +105,8 @@ class Stage {
 fs::path still_path(const Arguments& a, const std::vector<double>& horizons, double horizon) {
     const fs::path path = a.output;
     if (horizons.size() < 2) return path;
-    return path.parent_path() / (path.stem().string() + "_" + horizon_label(horizon) +
-                                 path.extension().string());
+    return path.parent_path() /
+           (path.stem().string() + "_" + horizon_label(horizon) + path.extension().string());
 }
 
 // All are rendered before the first is written: an interrupt leaves nothing.
@@ -152,8 +154,8 @@ void write_video(Session& session, const Arguments& a, const RenderSource& sourc
         const double wanted = aging ? horizon * age : horizon;
         if (wanted != shown) maps.emplace(source.maps(wanted));
         shown = wanted;
-        const double turn = aging ? stage.setting().rest_turn
-                                  : turntable_turn(stage.setting(), double(i) / frames);
+        const double turn =
+            aging ? stage.setting().rest_turn : turntable_turn(stage.setting(), double(i) / frames);
         // The bar counts frames, and an interrupt is heard within one.
         const Progress within = [&](std::string_view stage_name, std::int64_t done,
                                     std::int64_t total) {
@@ -183,7 +185,7 @@ void check(const Arguments& a, const RenderSource& source) {
 
 void run(Session& session, Arguments a) {
     output_kind(a);
-    const RenderSource source(a.input);
+    const RenderSource source(a.input, a.whole);
     check(a, source);
     if (a.motion.empty()) a.motion = "turntable";
     std::vector<double> horizons = a.horizons;
@@ -250,6 +252,7 @@ void add_render(CLI::App& app, Session& session) {
                      "How much a pixel may be off, in codes of 255; less takes longer")
         ->check(CLI::Range(0.05, 64.0))
         ->capture_default_str();
+    command->add_flag("--whole", a->whole, "Of a result, the backdrop around the specimen as well");
     command->add_flag("--force", session.force, "Replace what is there");
     session.add_options(*command);
     command->callback([a, &session] { session.action = [a](Session& s) { run(s, *a); }; });

@@ -7,12 +7,13 @@
 #include "stages.h"
 #include "verdigris/error.h"
 #include "verdigris/material/material_io.h"
+#include "verdigris/render/largest_rectangle.h"
 #include "verdigris/render/material_folder.h"
 
 namespace verdigris::cli {
 namespace fs = std::filesystem;
 
-RenderSource::RenderSource(const fs::path& input) : folder_(input) {
+RenderSource::RenderSource(const fs::path& input, bool whole) {
     std::error_code error;
     if (!fs::is_directory(input, error)) {
         throw Error(ErrorCode::bad_input,
@@ -30,7 +31,9 @@ RenderSource::RenderSource(const fs::path& input) : folder_(input) {
                         input.string());
         }
         forecast_->context.frames.clear();  // half of the memory, and nothing here needs it
-        aspect_ = double(now.width()) / now.height();
+        window_ = whole ? Rect{0, 0, now.width(), now.height()}
+                        : largest_rectangle(recipe_.active, now.width(), now.height());
+        aspect_ = double(window_.width) / window_.height;
         return;
     }
     if (!is_material_folder(input)) {
@@ -40,7 +43,8 @@ RenderSource::RenderSource(const fs::path& input) : folder_(input) {
                     input.string());
     }
     maps_ = read_material_folder(input);
-    aspect_ = double(maps_.albedo.width()) / maps_.albedo.height();
+    window_ = {0, 0, maps_.albedo.width(), maps_.albedo.height()};
+    aspect_ = double(window_.width) / window_.height;
 }
 
 double RenderSource::last_horizon() const {
@@ -56,7 +60,7 @@ SurfaceMaps RenderSource::maps(double horizon) const {
     if (!forecast_) return SurfaceMaps(maps_);
     Material m;
     materialize(recipe_, forecast_->forecast, horizon, m);
-    return SurfaceMaps(m);
+    return SurfaceMaps(m, window_);
 }
 
 }  // namespace verdigris::cli

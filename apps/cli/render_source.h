@@ -14,8 +14,10 @@ namespace verdigris::cli {
 /// A result of `verdigris age`, which has every age, or a folder of maps, which has one.
 class RenderSource {
   public:
+    /// Of a result the specimen alone is taken: the largest upright rectangle that holds nothing
+    /// else; or, if `whole`, the picture with its backdrop.
     /// Throws Error{bad_input}: neither, or a damaged one.
-    explicit RenderSource(const std::filesystem::path& input);
+    RenderSource(const std::filesystem::path& input, bool whole);
 
     bool ages() const { return forecast_ != nullptr; }
     /// The last that the result was made for; 0 for a folder of maps.
@@ -26,10 +28,10 @@ class RenderSource {
     SurfaceMaps maps(double horizon) const;
 
   private:
-    std::filesystem::path folder_;
     std::unique_ptr<SavedForecast> forecast_;
     MaterialRecipe recipe_;
     Material maps_;  // of a folder
+    Rect window_;
     double aspect_ = 1;
 };
 

@@ -24,11 +24,11 @@ Brdf::Brdf(const SurfacePoint& point, Vec3F to_viewer)
     const Reflectance seen = row_.at(v_.z);
     // glTF mixes two materials, and both give their own share back [Gltf20, B.3.3].
     const float plain = again_scattered(kDielectricF0, mean);
-    const LinearF again = mix(gray(plain),
-                              {again_scattered(point.base_color.r, mean),
-                               again_scattered(point.base_color.g, mean),
-                               again_scattered(point.base_color.b, mean)},
-                              metallic);
+    const LinearF again =
+        mix(gray(plain),
+            {again_scattered(point.base_color.r, mean), again_scattered(point.base_color.g, mean),
+             again_scattered(point.base_color.b, mean)},
+            metallic);
     const float lost = 1 - seen.whole();
     again_ = again * (lost / (kPi * std::max(1 - mean, 1e-4f)));
     const LinearF under = point.base_color * (1 - metallic);
@@ -48,8 +48,8 @@ Brdf::Value Brdf::evaluate(Vec3F l) const {
     const Reflectance lit = row_.at(l.z);
     const LinearF f = mix(f0_, gray(1), fresnel) * specular + again_ * (1 - lit.whole()) +
                       diffuse_ * (1 - lit.dielectric);
-    const float pdf = highlight_share_ * visible_pdf(v_, h, alpha_) +
-                      (1 - highlight_share_) * l.z * (1 / kPi);
+    const float pdf =
+        highlight_share_ * visible_pdf(v_, h, alpha_) + (1 - highlight_share_) * l.z * (1 / kPi);
     return {f, pdf};
 }
 

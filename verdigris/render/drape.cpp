@@ -54,11 +54,11 @@ Dual rise(Dual a, double from, double to) {
 }
 
 // All chosen by eye, so that folds catch light at every angle and none cuts through another.
-constexpr double kBall = 0.46;     // radius of the ball under the cloth
-constexpr double kHalfSide = 1.18; // of the cloth, at rest
-constexpr double kLift = 0.36;     // center of the ball above the middle of the picture
+constexpr double kBall = 0.46;       // radius of the ball under the cloth
+constexpr double kHalfSide = 1.18;   // of the cloth, at rest
+constexpr double kLift = 0.36;       // center of the ball above the middle of the picture
 constexpr double kLastAngle = 1.33;  // radians from the top at which the cloth leaves the ball
-constexpr double kDepth = 0.115;   // of the folds at the hem
+constexpr double kDepth = 0.115;     // of the folds at the hem
 
 // How far the profile has turned from level, at arc length s from the top: evenly over the ball,
 // then straight down the skirt. Height and radius are its integrals, in closed form.
@@ -88,15 +88,16 @@ DrapePoint drape_point(double u, double v) {
     // Folds begin where the cloth leaves the ball. Four corners make four great ones; the rest is
     // uneven, as cloth is.
     const Dual depth = kDepth * rise(s, 0.35, 1.25);
-    const Dual folds = cosine(8 * around + number(0.35)) +
-                       0.34 * cosine(5 * around + number(1.9)) +
+    const Dual folds = cosine(8 * around + number(0.35)) + 0.34 * cosine(5 * around + number(1.9)) +
                        0.30 * cosine(13 * around + number(0.7) + 1.5 * s);
     const Dual radius = p.radius + depth * folds;
     const Dual swing = 0.045 * (rise(s, 0.45, 1.4) * sine(6 * around + number(0.4)));
     const Dual turned = around + swing;
     const Dual px = radius * cosine(turned), pz = radius * sine(turned);
     const Dual py = p.height + number(kLift) - 0.03 * (rise(s, 0.5, 1.4) * folds);
-    const auto vec = [&](auto part) { return Vec3F{float(part(px)), float(part(py)), float(part(pz))}; };
+    const auto vec = [&](auto part) {
+        return Vec3F{float(part(px)), float(part(py)), float(part(pz))};
+    };
     return {vec([](const Dual& d) { return d.v; }), vec([](const Dual& d) { return d.du; }),
             vec([](const Dual& d) { return d.dv; })};
 }

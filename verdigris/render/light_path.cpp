@@ -146,8 +146,7 @@ bool LightPaths::light(Vec3F from, Vec3F direction, std::uint32_t sample, std::u
         hit = scene_.shape->hides_itself ? nearest(at.position, direction) : RayHit{};
         if (!hit.hit) {
             const Lighting::Light light = lighting.along(at.position, direction, at.weights);
-            const LinearF found =
-                through * light.radiance * power_weight(next.pdf, light.pdf);
+            const LinearF found = through * light.radiance * power_weight(next.pdf, light.pdf);
             result += bounce == 0 ? found : limited(found);
             return true;
         }

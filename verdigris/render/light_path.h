@@ -26,8 +26,12 @@ class LightPaths {
     LinearF direct(const Vertex& at, std::uint32_t sample, std::uint32_t pair, std::uint32_t seed);
     RayHit nearest(Vec3F from, Vec3F direction);
     bool blocked(Vec3F from, Vec3F direction);
-    Vec3F to_object(Vec3F v) const { return {v.x * cos_ - v.z * sin_, v.y, v.x * sin_ + v.z * cos_}; }
-    Vec3F to_world(Vec3F v) const { return {v.x * cos_ + v.z * sin_, v.y, v.z * cos_ - v.x * sin_}; }
+    Vec3F to_object(Vec3F v) const {
+        return {v.x * cos_ - v.z * sin_, v.y, v.x * sin_ + v.z * cos_};
+    }
+    Vec3F to_world(Vec3F v) const {
+        return {v.x * cos_ + v.z * sin_, v.y, v.z * cos_ - v.x * sin_};
+    }
 
     const RenderScene& scene_;
     int bounces_;

@@ -19,7 +19,7 @@
 namespace verdigris {
 namespace {
 
-constexpr int kMostDepth = 64;  // of nodes, and of the JSON around them
+constexpr int kMostDepth = 64;          // of nodes, and of the JSON around them
 constexpr float kMostDistance = 1e12f;  // the square of its square is still a number
 constexpr std::size_t kMostNodes = 1'000'000;
 
@@ -237,7 +237,8 @@ class Assembly {
             listed.reserve(indices.count());
             for (std::size_t i = 0; i < indices.count(); ++i) {
                 const std::uint32_t index = indices.index(i);
-                if (index >= count) refuse(where_, "has a triangle with a vertex that is not there");
+                if (index >= count)
+                    refuse(where_, "has a triangle with a vertex that is not there");
                 listed.push_back(index);
             }
         } else {
@@ -249,8 +250,8 @@ class Assembly {
             const bool fan = p.mode == TINYGLTF_MODE_TRIANGLE_FAN;
             for (std::size_t i = 0; i + 2 < n; ++i) {
                 const std::size_t odd = fan ? 0 : i % 2;
-                order.insert(order.end(), {listed[fan ? 0 : i], listed[i + 1 + odd],
-                                           listed[i + 2 - odd]});
+                order.insert(order.end(),
+                             {listed[fan ? 0 : i], listed[i + 1 + odd], listed[i + 2 - odd]});
             }
         } else {
             listed.resize(n - n % 3);

@@ -64,7 +64,8 @@ Accessor open_accessor(const std::string& where, const tinygltf::Model& model, i
     };
     if (index < 0 || std::size_t(index) >= model.accessors.size()) outside();
     const tinygltf::Accessor& a = model.accessors[std::size_t(index)];
-    if (a.sparse.isSparse) refuse(where, fmt::format("stores its {} sparsely, which is not read", name));
+    if (a.sparse.isSparse)
+        refuse(where, fmt::format("stores its {} sparsely, which is not read", name));
     if (a.bufferView < 0 || std::size_t(a.bufferView) >= model.bufferViews.size()) outside();
     const tinygltf::BufferView& view = model.bufferViews[std::size_t(a.bufferView)];
     if (view.buffer < 0 || std::size_t(view.buffer) >= model.buffers.size()) outside();
@@ -96,7 +97,8 @@ Accessor open_accessor(const std::string& where, const tinygltf::Model& model, i
             break;
     }
     const bool index_type = type == Type::u8 || type == Type::u16 || type == Type::u32;
-    if (type == Type::none || tinygltf::GetNumComponentsInType(std::uint32_t(a.type)) != components ||
+    if (type == Type::none ||
+        tinygltf::GetNumComponentsInType(std::uint32_t(a.type)) != components ||
         (components == 1 && !index_type)) {
         refuse(where, fmt::format("has {} of a type that glTF does not allow", name));
     }
@@ -113,8 +115,8 @@ Accessor open_accessor(const std::string& where, const tinygltf::Model& model, i
                         (a.count - 1) > (view.byteLength - a.byteOffset - element) / stride)) {
         outside();
     }
-    return {where, name, data.data() + view.byteOffset + a.byteOffset, type, a.count, stride,
-            a.normalized};
+    return {where,  name,        data.data() + view.byteOffset + a.byteOffset, type, a.count,
+            stride, a.normalized};
 }
 
 }  // namespace verdigris

@@ -76,13 +76,12 @@ inline std::optional<Matrix4> matrix_of(const std::vector<double>& matrix,
     }
     if (rotation.size() == 4) {
         const double x = rotation[0], y = rotation[1], z = rotation[2], w = rotation[3];
-        m.turn.column = {
-            Vec3F{float(1 - 2 * (y * y + z * z)), float(2 * (x * y + z * w)),
-                  float(2 * (x * z - y * w))},
-            Vec3F{float(2 * (x * y - z * w)), float(1 - 2 * (x * x + z * z)),
-                  float(2 * (y * z + x * w))},
-            Vec3F{float(2 * (x * z + y * w)), float(2 * (y * z - x * w)),
-                  float(1 - 2 * (x * x + y * y))}};
+        m.turn.column = {Vec3F{float(1 - 2 * (y * y + z * z)), float(2 * (x * y + z * w)),
+                               float(2 * (x * z - y * w))},
+                         Vec3F{float(2 * (x * y - z * w)), float(1 - 2 * (x * x + z * z)),
+                               float(2 * (y * z + x * w))},
+                         Vec3F{float(2 * (x * z + y * w)), float(2 * (y * z - x * w)),
+                               float(1 - 2 * (x * x + y * y))}};
     }
     if (scale.size() == 3) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -45,8 +45,8 @@ Reflectance once_scattered(float cosine, float alpha) {
         const Vec3F h = visible_half(v, alpha, sobol_point(i, 0, 0));
         const Vec3F l = reflected(v, h);
         if (l.z <= 0) continue;
-        const float shown = smith_visibility(v.z, l.z, alpha) * 2 * l.z *
-                            (v.z + smith_root(v.z, alpha));
+        const float shown =
+            smith_visibility(v.z, l.z, alpha) * 2 * l.z * (v.z + smith_root(v.z, alpha));
         const float fresnel = fifth_power(1 - std::clamp(dot(v, h), 0.0f, 1.0f));
         scale += double(shown * (1 - fresnel));
         bias += double(shown * fresnel);

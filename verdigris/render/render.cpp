@@ -13,7 +13,7 @@
 namespace verdigris {
 namespace {
 
-constexpr int kTile = 16;           // pixels a side: about 1 ms of work
+constexpr int kTile = 16;             // pixels a side: about 1 ms of work
 constexpr int kTilesPerReport = 128;  // chosen: an interrupt is heard within a second
 constexpr int kFirstSamples = 16;
 constexpr int kMostExtent = 16384;
@@ -190,8 +190,7 @@ class Renderer {
 
 }  // namespace
 
-Rendering render(const RenderScene& scene, const RenderOptions& options,
-                 const Progress& progress) {
+Rendering render(const RenderScene& scene, const RenderOptions& options, const Progress& progress) {
     check(scene, options);
     Renderer renderer(scene, options);
     const int tiles = renderer.tiles();

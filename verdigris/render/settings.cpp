@@ -17,9 +17,7 @@ constexpr std::array<std::pair<SceneKind, std::string_view>, 3> kNames{
 // Leans back around +X.
 void lean_back(Shape& shape, double radians) {
     const float c = float(std::cos(radians)), s = float(std::sin(radians));
-    const auto turned = [&](Vec3F v) {
-        return Vec3F{v.x, v.y * c + v.z * s, v.z * c - v.y * s};
-    };
+    const auto turned = [&](Vec3F v) { return Vec3F{v.x, v.y * c + v.z * s, v.z * c - v.y * s}; };
     for (Vec3F& p : shape.positions) p = turned(p);
     for (Vec3F& n : shape.normals) n = turned(n);
     for (Tangent& t : shape.tangents) t.direction = turned(t.direction);
@@ -54,10 +52,10 @@ Setting make_setting(SceneKind kind, double width_over_height) {
     switch (kind) {
         case SceneKind::plate:
             s.shape = plate_shape(width_over_height);
-            lean_back(s.shape, 0.24);
-            s.view = {{0, 0.35f, 6.2f}, {0, 0, 0}, 24};
+            lean_back(s.shape, 0.2);
+            s.view = {{0, 0.3f, 5.6f}, {0, 0, 0}, 24};
             s.swings = true;
-            s.rest_turn = 0.3;
+            s.rest_turn = -0.27;
             break;
         case SceneKind::sphere:
             s.shape = sphere_shape();
@@ -65,7 +63,7 @@ Setting make_setting(SceneKind kind, double width_over_height) {
             break;
         case SceneKind::drape:
             s.shape = drape_shape();
-            s.view = {{0, 1.6f, 5.4f}, {0, 0.02f, 0}, 24};
+            s.view = {{0, 1.5f, 4.7f}, {0, -0.04f, 0}, 24};
             s.rest_turn = 0.35;
             break;
     }
@@ -88,18 +86,17 @@ Setting make_setting(Shape model) {
 
 double turntable_turn(const Setting& setting, double phase) {
     const double angle = 2 * double(kPi) * phase;
-    return setting.swings ? 0.75 * std::sin(angle + 0.41) : setting.rest_turn + angle;
+    return setting.swings ? 0.7 * std::sin(angle - 0.396) : setting.rest_turn + angle;
 }
 
 Lighting studio_lighting() {
     // All chosen by eye on copper, so that a sphere shows a large soft highlight, a bright edge and
     // a dark core: docs/models/render.md.
-    SkyLight room({0.16f, 0.155f, 0.15f}, {0.10f, 0.10f, 0.105f}, {0.05f, 0.05f, 0.055f});
-    return Lighting(std::move(room),
-                    {softbox({-3.6f, 3.4f, 3.6f}, 1.7f, 1.7f, gray(6.5f)),
-                     softbox({4.6f, 1.2f, 0.2f}, 0.5f, 2.2f, gray(7.0f)),
-                     softbox({0.6f, 5.0f, -1.2f}, 2.4f, 1.2f, gray(4.0f)),
-                     softbox({3.2f, 0.4f, 4.6f}, 1.4f, 1.8f, gray(0.7f))});
+    SkyLight room({0.30f, 0.29f, 0.28f}, {0.15f, 0.15f, 0.154f}, {0.08f, 0.08f, 0.084f});
+    return Lighting(std::move(room), {softbox({-3.4f, 3.0f, 3.8f}, 2.3f, 2.3f, gray(7.0f)),
+                                      softbox({4.4f, 1.0f, 0.6f}, 0.9f, 2.6f, gray(7.0f)),
+                                      softbox({0.4f, 5.0f, -1.0f}, 3.0f, 1.6f, gray(4.5f)),
+                                      softbox({3.4f, -0.6f, 5.0f}, 2.6f, 2.6f, gray(1.1f))});
 }
 Lighting sky_lighting(SkyLight sky) {
     return Lighting(std::move(sky), {});

@@ -56,9 +56,8 @@ Shape sphere_shape(int rings) {
                 const float east = front ? 1.0f : -1.0f;  // the mirrored half counts westwards
                 shape.positions.push_back(n);
                 shape.normals.push_back(n);
-                shape.tangents.push_back({{float(std::cos(around)) * east, 0,
-                                           float(-std::sin(around)) * east},
-                                          east});
+                shape.tangents.push_back(
+                    {{float(std::cos(around)) * east, 0, float(-std::sin(around)) * east}, east});
                 shape.coordinates.push_back(
                     {float(front ? across : 1 - across), float(double(y) / rings)});
             }

@@ -97,8 +97,8 @@ SkyLight::SkyLight(Image<LinearF> picture) : picture_(std::move(picture)) {
                 cumulative_(x, y) = float(sum);
             }
             for (int x = 0; x < width; ++x) {
-                cumulative_(x, y) = sum > 0 ? float(double(cumulative_(x, y)) / sum)
-                                            : float(x + 1) / float(width);
+                cumulative_(x, y) =
+                    sum > 0 ? float(double(cumulative_(x, y)) / sum) : float(x + 1) / float(width);
             }
             cumulative_(width - 1, y) = 1;
             rows[std::size_t(y)] = sum * area;
@@ -113,7 +113,8 @@ SkyLight::SkyLight(Image<LinearF> picture) : picture_(std::move(picture)) {
         for (int x = 0; x < width; ++x) row += double(luminance(picture_(x, y)));
         light += row / width * (std::cos(kPi * y / height) - std::cos(kPi * (y + 1) / height)) / 2;
     }
-    if (!(total > 0)) throw Error(ErrorCode::usage, "a sky that is black everywhere lights nothing");
+    if (!(total > 0))
+        throw Error(ErrorCode::usage, "a sky that is black everywhere lights nothing");
     for (int y = 0; y < height; ++y) {
         float& at = row_cumulative_[std::size_t(y)];
         at = float(double(at) / total);
@@ -161,9 +162,9 @@ float SkyLight::pdf(Vec3F d) const {
     const int x = std::clamp(int(u * float(width)), 0, width - 1);
     const int y = std::clamp(int(v * float(height)), 0, height - 1);
     const auto share = [](const float* c, int i) { return c[i] - (i > 0 ? c[i - 1] : 0); };
-    const float area = (std::cos(kPi * float(y) / float(height)) -
-                        std::cos(kPi * float(y + 1) / float(height))) *
-                       2 * kPi / float(width);
+    const float area =
+        (std::cos(kPi * float(y) / float(height)) - std::cos(kPi * float(y + 1) / float(height))) *
+        2 * kPi / float(width);
     return share(row_cumulative_.data(), y) * share(cumulative_.row(y), x) / area;
 }
 
@@ -177,9 +178,10 @@ SkyLight read_sky_light(const std::filesystem::path& path) {
                            info.height));
     }
     if (info.width != 2 * info.height) {
-        refuse(fmt::format("has {} x {} pixels; surroundings are equirectangular, twice as wide as "
-                           "high",
-                           info.width, info.height));
+        refuse(
+            fmt::format("has {} x {} pixels; surroundings are equirectangular, twice as wide as "
+                        "high",
+                        info.width, info.height));
     }
     try {
         return SkyLight(linear_picture(read_image(path)));

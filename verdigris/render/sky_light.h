@@ -50,7 +50,8 @@ class SkyLight {
     float mean_ = 0;
 };
 
-/// chosen: 8192 x 4096, the largest that libraries of surroundings usually offer; 600 MB while read.
+/// chosen: 8192 x 4096, the largest that libraries of surroundings usually offer; 600 MB while
+/// read.
 inline constexpr std::int64_t kMaxSkyPixels = std::int64_t(1) << 25;
 
 /// An OpenEXR, or another picture that read_image() takes (then encoded sRGB is made linear).

@@ -53,8 +53,7 @@ inline std::uint32_t second_sobol_reversed(std::uint32_t index) {
 /// 2^-k.
 inline UnitPoint sobol_point(std::uint32_t sample, std::uint32_t pair, std::uint32_t seed) {
     const std::uint32_t own = seed_of(seed, pair);
-    const std::uint32_t index =
-        reversed_bits(scrambled_reversed(reversed_bits(sample), own));
+    const std::uint32_t index = reversed_bits(scrambled_reversed(reversed_bits(sample), own));
     const std::uint32_t x = reversed_bits(scrambled_reversed(index, mixed_bits(own ^ 0x5bd1e995u)));
     const std::uint32_t y = reversed_bits(
         scrambled_reversed(second_sobol_reversed(index), mixed_bits(own ^ 0x1b873593u)));

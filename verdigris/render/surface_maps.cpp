@@ -46,25 +46,30 @@ Neighbors neighbors(float x, int extent, Beyond beyond) {
 
 }  // namespace
 
-SurfaceMaps::SurfaceMaps(const Material& m) {
+SurfaceMaps::SurfaceMaps(const Material& m)
+    : SurfaceMaps(m, {0, 0, m.albedo.width(), m.albedo.height()}) {}
+
+SurfaceMaps::SurfaceMaps(const Material& m, Rect window) {
     if (m.albedo.empty() || !m.albedo.same_size(m.normal) || !m.albedo.same_size(m.roughness) ||
         !m.albedo.same_size(m.metallic)) {
         throw Error(ErrorCode::usage, "the maps of a material must all have one size, and pixels");
     }
-    texels_ = Image<Texel>::for_overwrite(m.albedo.width(), m.albedo.height());
+    if (window.x < 0 || window.y < 0 || window.width < 1 || window.height < 1 ||
+        window.width > m.albedo.width() - window.x ||
+        window.height > m.albedo.height() - window.y) {
+        throw Error(ErrorCode::usage, "a part of a material must lie within it");
+    }
+    texels_ = Image<Texel>::for_overwrite(window.width, window.height);
     parallel_rows(texels_.height(), kRowsPerRun, [&](RowRun run) {
-        for (int y = run.begin; y < run.end; ++y) {
-            for (int x = 0; x < texels_.width(); ++x) {
+        for (int row = run.begin; row < run.end; ++row) {
+            for (int column = 0; column < texels_.width(); ++column) {
+                const int x = window.x + column, y = window.y + row;
                 const LinearF c = linear_from_srgb(m.albedo(x, y));
                 const Vec3F n = m.normal(x, y);
-                texels_(x, y).v = {u16_from_unit(c.r),
-                                   u16_from_unit(c.g),
-                                   u16_from_unit(c.b),
-                                   u16_from_unit(m.roughness(x, y)),
-                                   code_of_component(n.x),
-                                   code_of_component(n.y),
-                                   code_of_component(n.z),
-                                   u16_from_unit(m.metallic(x, y))};
+                texels_(column, row).v = {u16_from_unit(c.r),     u16_from_unit(c.g),
+                                          u16_from_unit(c.b),     u16_from_unit(m.roughness(x, y)),
+                                          code_of_component(n.x), code_of_component(n.y),
+                                          code_of_component(n.z), u16_from_unit(m.metallic(x, y))};
             }
         }
     });

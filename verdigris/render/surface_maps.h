@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The maps of a material as the renderer reads them: linear light, all maps of a texel side by side.
+// The maps of a material as the renderer reads them: linear light, all maps of a texel side by
+// side.
 #pragma once
 
 #include <array>
@@ -16,8 +17,11 @@ enum class Beyond { edge, repeat };
 /// 16 bytes a texel.
 class SurfaceMaps {
   public:
-    /// Height and coverage are not used. Throws Error{usage} if the maps are empty or differ in size.
+    /// Height and coverage are not used. Throws Error{usage} if the maps are empty or differ in
+    /// size.
     explicit SurfaceMaps(const Material& material);
+    /// Of a part of them, which must lie within.
+    SurfaceMaps(const Material& material, Rect window);
 
     struct Point {
         SurfacePoint surface;

@@ -33,9 +33,9 @@ Tracer::Tracer(const Shape& shape) : state_(std::make_unique<State>()) {
     s.scene = rtcNewScene(s.device);
     rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(s.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                              RTC_FORMAT_FLOAT3, sizeof(Vec3F),
-                                              shape.positions.size());
+    void* positions =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                sizeof(Vec3F), shape.positions.size());
     void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                               sizeof(shape.triangles[0]), shape.triangles.size());
     s.check();
@@ -78,12 +78,8 @@ RayHit Tracer::nearest(Vec3F from, Vec3F direction) const {
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_->scene, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return {true,
-            query.ray.tfar,
-            query.hit.primID,
-            query.hit.u,
-            query.hit.v,
-            {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}};
+    return {true,        query.ray.tfar, query.hit.primID,
+            query.hit.u, query.hit.v,    {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}};
 }
 
 bool Tracer::blocked(Vec3F from, Vec3F direction) const {
