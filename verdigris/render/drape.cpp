@@ -58,6 +58,7 @@ constexpr double kBall = 0.46;       // radius of the ball under the cloth
 constexpr double kHalfSide = 1.18;   // of the cloth, at rest
 constexpr double kLift = 0.36;       // center of the ball above the middle of the picture
 constexpr double kLastAngle = 1.33;  // radians from the top at which the cloth leaves the ball
+constexpr double kFirstFold = 0.35;  // arc length from the top where folds begin
 constexpr double kDepth = 0.115;     // of the folds at the hem
 
 // How far the profile has turned from level, at arc length s from the top: evenly over the ball,
@@ -81,13 +82,25 @@ Profile profile(Dual s) {
 DrapePoint drape_point(double u, double v) {
     const Dual x = {(2 * u - 1) * kHalfSide, 2 * kHalfSide, 0};
     const Dual z = {(2 * v - 1) * kHalfSide, 0, 2 * kHalfSide};
-    // 1e-6: at the very top the polar angle has no derivative, and the folds have no depth.
-    const Dual s = root(x * x + z * z + number(1e-6));
-    const Dual around = angle(z + number(1e-9), x);
+    const Dual s = root(x * x + z * z + number(1e-6));  // 1e-6: the root of 0 has no derivative
     const Profile p = profile(s);
+    const auto point = [](Dual px, Dual py, Dual pz) {
+        const auto vec = [&](auto part) {
+            return Vec3F{float(part(px)), float(part(py)), float(part(pz))};
+        };
+        return DrapePoint{vec([](const Dual& d) { return d.v; }),
+                          vec([](const Dual& d) { return d.du; }),
+                          vec([](const Dual& d) { return d.dv; })};
+    };
+    // Around the top there is no fold, and the angle around it has no derivative.
+    if (s.v < kFirstFold) {
+        const Dual share = p.radius * chain(s, 1 / s.v, -1 / (s.v * s.v));
+        return point(share * x, p.height + number(kLift), share * z);
+    }
+    const Dual around = angle(z, x);
     // Folds begin where the cloth leaves the ball. Four corners make four great ones; the rest is
     // uneven, as cloth is.
-    const Dual depth = kDepth * rise(s, 0.35, 1.25);
+    const Dual depth = kDepth * rise(s, kFirstFold, 1.25);
     const Dual folds = cosine(8 * around + number(0.35)) + 0.34 * cosine(5 * around + number(1.9)) +
                        0.30 * cosine(13 * around + number(0.7) + 1.5 * s);
     const Dual radius = p.radius + depth * folds;
@@ -95,11 +108,7 @@ DrapePoint drape_point(double u, double v) {
     const Dual turned = around + swing;
     const Dual px = radius * cosine(turned), pz = radius * sine(turned);
     const Dual py = p.height + number(kLift) - 0.03 * (rise(s, 0.5, 1.4) * folds);
-    const auto vec = [&](auto part) {
-        return Vec3F{float(part(px)), float(part(py)), float(part(pz))};
-    };
-    return {vec([](const Dual& d) { return d.v; }), vec([](const Dual& d) { return d.du; }),
-            vec([](const Dual& d) { return d.dv; })};
+    return point(px, py, pz);
 }
 
 }  // namespace verdigris

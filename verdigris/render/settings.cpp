@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "verdigris/render/vector.h"
@@ -85,7 +86,7 @@ Setting make_setting(Shape model) {
 }
 
 double turntable_turn(const Setting& setting, double phase) {
-    const double angle = 2 * double(kPi) * phase;
+    const double angle = 2 * std::numbers::pi * phase;
     return setting.swings ? 0.7 * std::sin(angle - 0.396) : setting.rest_turn + angle;
 }
 
