@@ -124,34 +124,41 @@ LinearF LightPaths::direct(const Vertex& at, std::uint32_t sample, std::uint32_t
     return sum * light.radiance;
 }
 
-bool LightPaths::light(Vec3F from, Vec3F direction, std::uint32_t sample, std::uint32_t seed,
-                       LinearF& result) {
+LinearF LightPaths::path(const Vertex& first, std::uint32_t sample, std::uint32_t seed) {
     const Lighting& lighting = *scene_.lighting;
-    result = {};
-    RayHit hit = nearest(from, direction);
-    if (!hit.hit) return false;
-    LinearF through = gray(1);
+    LinearF result{}, through = gray(1);
+    Vertex at = first;
     for (int bounce = 0;; ++bounce) {
-        const Vertex at = vertex(hit, direction);
         const std::uint32_t pair = 1 + kPairsPerVertex * std::uint32_t(bounce);
         const LinearF direct_light = through * direct(at, sample, pair, seed);
         result += bounce == 0 ? direct_light : limited(direct_light);
 
         const Brdf::Sample next = at.brdf.sample(sobol_point(sample, pair + 1, seed));
-        if (!(next.pdf > 0)) return true;
+        if (!(next.pdf > 0)) return result;
         through = through * next.weight;
-        direction = at.frame.world(next.to_light);
+        Vec3F direction = at.frame.world(next.to_light);
         if (dot(direction, at.face) < 0) direction = turned_up(direction, at.face);
 
-        hit = scene_.shape->hides_itself ? nearest(at.position, direction) : RayHit{};
+        const RayHit hit = scene_.shape->hides_itself ? nearest(at.position, direction) : RayHit{};
         if (!hit.hit) {
             const Lighting::Light light = lighting.along(at.position, direction, at.weights);
             const LinearF found = through * light.radiance * power_weight(next.pdf, light.pdf);
-            result += bounce == 0 ? found : limited(found);
-            return true;
+            return result + (bounce == 0 ? found : limited(found));
         }
-        if (bounce == bounces_) return true;
+        if (bounce == bounces_) return result;
+        at = vertex(hit, direction);
     }
+}
+
+bool LightPaths::light(Vec3F from, Vec3F direction, std::uint32_t sample, std::uint32_t seed,
+                       LinearF& result) {
+    const RayHit hit = nearest(from, direction);
+    if (!hit.hit) return false;
+    const Vertex first = vertex(hit, direction);
+    result = {};
+    for (std::uint32_t k = 0; k < kSplits; ++k) result += path(first, sample * kSplits + k, seed);
+    result = result * (1.0f / kSplits);
+    return true;
 }
 
 }  // namespace verdigris

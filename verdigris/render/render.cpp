@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTile = 16;             // pixels a side: about 1 ms of work
 constexpr int kTilesPerReport = 128;  // chosen: an interrupt is heard within a second
-constexpr int kFirstSamples = 16;
+constexpr int kFirstSamples = 8;
 constexpr int kMostExtent = 16384;
 
 void check(const RenderScene& scene, const RenderOptions& o) {
@@ -28,7 +28,7 @@ void check(const RenderScene& scene, const RenderOptions& o) {
     }
     if (o.most_samples < kFirstSamples || o.most_samples > 1 << 20 ||
         (o.most_samples & (o.most_samples - 1)) != 0) {
-        refuse("the samples of a pixel are a power of two from 16 to 1048576");
+        refuse("the samples of a pixel are a power of two from 8 to 1048576");
     }
     if (!(o.tolerance >= 0)) refuse("a tolerance is 0 or more codes");
     if (o.bounces < 0 || o.bounces > 64) refuse("light may bounce 0 to 64 times");

@@ -41,16 +41,17 @@ struct RenderScene {
 struct RenderOptions {
     int width = 1024, height = 1024;
     /// A pixel gets samples until its own estimate of the noise that is left, a standard
-    /// deviation after tone mapping, is below this many codes of 255. 0: all of `most_samples`.
-    double tolerance = 2;
-    int most_samples = 512;  ///< per pixel; a power of two from 16 on
+    /// deviation after tone mapping, is below this many codes of 255. The estimate is careful:
+    /// what is left is about a third of it. 0: all of `most_samples`.
+    double tolerance = 3;
+    int most_samples = 256;  ///< rays of the camera per pixel; a power of two from 8 on
     int bounces = 3;         ///< from the object to itself, where it hides itself
     std::uint32_t seed = 0;
 };
 
 struct Rendering {
     Image<LinearF> light;
-    std::int64_t samples = 0;  ///< paths in all
+    std::int64_t samples = 0;  ///< rays of the camera in all; each splits into four paths
     std::int64_t rays = 0;     ///< traced in all
 };
 

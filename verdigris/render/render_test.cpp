@@ -183,10 +183,10 @@ TEST(Render, SameBytesOnAnyNumberOfThreads) {
 TEST(Render, NoiseIsBelowTheToleranceThatWasAskedFor) {
     TestScene t(sphere_shape(), even_material({0.87f, 0.63f, 0.53f}, 0.3f, 1), studio_lighting());
     t.view = make_setting(SceneKind::sphere, 1).view;
-    RenderOptions o{.width = 64, .height = 64, .tolerance = 2};
+    RenderOptions o{.width = 64, .height = 64, .tolerance = 3};
     const Rendering quick = render(t.scene(), o);
     o.tolerance = 0;
-    o.most_samples = 2048;
+    o.most_samples = 512;
     o.seed = 1;
     const Rendering slow = render(t.scene(), o);
     double square = 0;
