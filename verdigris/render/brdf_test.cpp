@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "verdigris/render/microfacet.h"
 #include "verdigris/render/vector.h"
@@ -30,8 +31,7 @@ LinearF reflected_in_all(const Brdf& brdf, int samples = 1 << 14) {
     return sum * (1 / float(samples));
 }
 
-// The same by a grid over the hemisphere that knows nothing of the sampling. `power` presses the
-// grid towards the mirror direction's cosine only through sheer number of cells.
+// Of a function, by a grid over the hemisphere that knows nothing of the sampling.
 template <class F>
 double over_hemisphere(F f, int rings = 900, int spokes = 900) {
     double sum = 0;
@@ -72,6 +72,21 @@ TEST(Brdf, NothingReflectsMoreThanItGets) {
             }
         }
     }
+}
+
+// Why diffuse is not glTF's own (1 - F(v.h)) / pi: seen at a grazing angle a smooth white
+// dielectric would reflect more than it gets [Gltf20, B.3.3].
+TEST(Brdf, GltfsOwnSumWouldReflectMoreThanItGets) {
+    const Vec3F v = direction(0.05f);
+    const float alpha = alpha_of(0.3f);
+    const double sum = over_hemisphere([&](Vec3F l) {
+        const Vec3F h = unit(v + l);
+        const float fresnel = 0.04f + 0.96f * fifth_power(1 - dot(v, h));
+        const float highlight = ggx_density(h, alpha) * smith_visibility(v.z, l.z, alpha);
+        return double((fresnel * highlight + (1 - fresnel) / kPi) * l.z);
+    });
+    RecordProperty("reflected", std::to_string(sum));
+    EXPECT_GT(sum, 1.2);
 }
 
 TEST(Brdf, WhiteDielectricGivesBackWhatItDoesNotAbsorb) {
