@@ -15,6 +15,7 @@ void add_forecast(CLI::App& app, Session& session);
 void add_materialize(CLI::App& app, Session& session);
 void add_deliver(CLI::App& app, Session& session);
 void add_view(CLI::App& app, Session& session);
+void add_render(CLI::App& app, Session& session);
 void add_simulate(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);
 void add_characterize(CLI::App& app, Session& session);

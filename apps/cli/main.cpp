@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
     cli::add_materialize(app, session);
     cli::add_deliver(app, session);
     cli::add_view(app, session);
+    cli::add_render(app, session);
     cli::add_simulate(app, session);
     cli::add_evaluate(app, session);
     cli::add_characterize(app, session);

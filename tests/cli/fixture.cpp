@@ -3,6 +3,7 @@
 //   verdigris_fixture plate DIR FRAMES SIDE   a copper plate that tarnishes in front of a backdrop
 //   verdigris_fixture hostile DIR             one folder or file per kind of bad input
 //   verdigris_fixture lpips FILE              weights of LPIPS of "squeeze" that mean nothing
+//   verdigris_fixture skies DIR               surroundings as OpenEXR: good.exr and hostile ones
 // Synthetic: the tarnish is a color path through thin-film colors, faster where a smooth noise
 // says so. It is a test picture, not the simulator.
 #include <ImfRgbaFile.h>
@@ -113,6 +114,36 @@ void solid_folder(const fs::path& folder, int frames, SrgbU8 color) {
     for (int i = 0; i < frames; ++i) write_png(folder / number(i), image);
 }
 
+// By OpenEXR itself: our own writer refuses to write a NaN.
+void put_exr(const fs::path& path, const std::vector<Imf::Rgba>& pixels, int width) {
+    const int height = int(pixels.size()) / width;
+    fs::create_directories(path.parent_path());
+    Imf::RgbaOutputFile file(path.c_str(), width, height, Imf::WRITE_RGB);
+    file.setFrameBuffer(pixels.data(), 1, std::size_t(width));
+    file.writePixels(height);
+}
+
+void skies(const fs::path& root) {
+    std::vector<Imf::Rgba> sky(32 * 16, Imf::Rgba(0.3f, 0.4f, 0.6f));
+    sky[4 * 32 + 5] = Imf::Rgba(400, 350, 300);  // a sun
+    put_exr(root / "good.exr", sky, 32);
+    put_exr(root / "black.exr", std::vector<Imf::Rgba>(32 * 16, Imf::Rgba(0, 0, 0)), 32);
+    sky[77].r = std::numeric_limits<float>::quiet_NaN();
+    put_exr(root / "nan.exr", sky, 32);
+    sky[77].r = std::numeric_limits<float>::infinity();
+    put_exr(root / "inf.exr", sky, 32);
+    // Its header declares 60,000 x 30,000 pixels.
+    auto bytes = read_file(root / "good.exr");
+    for (const std::string name : {"dataWindow", "displayWindow"}) {
+        const std::string key = name + std::string("\0box2i\0\x10\0\0\0", 11);
+        const auto* text = reinterpret_cast<const char*>(bytes.data());
+        const std::size_t at = std::string(text, bytes.size()).find(key) + key.size() + 8;
+        const std::array<std::uint32_t, 2> most{59999, 29999};
+        for (std::size_t i = 0; i < 8; ++i) bytes[at + i] = std::byte(most[i / 4] >> (8 * (i % 4)));
+    }
+    write_file(root / "giant.exr", bytes);
+}
+
 void hostile(const fs::path& root) {
     fs::create_directories(root / "empty");
     write_file(root / "text.mp4", std::string_view("this is not a video, it is a letter\n"));
@@ -140,15 +171,11 @@ void hostile(const fs::path& root) {
     write_file(root / "huge" / "0001.png", bytes);
 
     for (int i = 0; i < 8; ++i) {
-        // By OpenEXR itself: our own writer refuses to write a NaN.
         std::vector<Imf::Rgba> pixels(32 * 32, Imf::Rgba(0.4f, 0.2f, 0.1f));
         if (i == 5) pixels[3 * 32 + 7].g = std::numeric_limits<float>::quiet_NaN();
         char name[16];
         std::snprintf(name, sizeof name, "%04d.exr", i);
-        fs::create_directories(root / "nan");
-        Imf::RgbaOutputFile file((root / "nan" / name).c_str(), 32, 32, Imf::WRITE_RGB);
-        file.setFrameBuffer(pixels.data(), 1, 32);
-        file.writePixels(32);
+        put_exr(root / "nan" / name, pixels, 32);
     }
     for (int i = 0; i < 12; ++i)
         write_png(root / "truncated_png" / number(i), plate_frame(96, i, 12));
@@ -210,6 +237,10 @@ int main(int argc, char** argv) {
             }
             return 0;
         }
+        if (kind == "skies" && argc == 3) {
+            skies(argv[2]);
+            return 0;
+        }
         if (kind == "hostile" && argc == 3) {
             hostile(argv[2]);
             return 0;
@@ -222,7 +253,8 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "verdigris_fixture: %s\n", e.what());
         return 1;
     }
-    std::fprintf(stderr,
-                 "usage: verdigris_fixture plate DIR FRAMES SIDE | hostile DIR | lpips FILE\n");
+    std::fprintf(
+        stderr,
+        "usage: verdigris_fixture plate DIR FRAMES SIDE | hostile DIR | lpips FILE | skies DIR\n");
     return 2;
 }

@@ -32,7 +32,7 @@ for golden in "$here"/*.png; do
     fail "$name: the mean is not held to"
   rm -rf "$scratch/failed"
 done
-[ "$count" -eq 6 ] || fail "$count golden pictures instead of 6"
+[ "$count" -eq 9 ] || fail "$count golden pictures instead of 9"
 ! "$compare" check "$here/color.png" "$here/forecast_u010.png" 255 255 1 "$scratch/failed" \
   2>"$scratch/said" || fail "8 bits pass for 16"
 grep -q "FAIL: forecast_u010: " "$scratch/said" || fail "another depth is not named"

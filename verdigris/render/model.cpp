@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/render/model.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "verdigris/error.h"
+#include "verdigris/files/atomic_file.h"
+#include "verdigris/render/model_accessor.h"
+#include "verdigris/render/model_matrix.h"
+#include "verdigris/render/tangents.h"
+#include "verdigris/render/vector.h"
+
+namespace verdigris {
+namespace {
+
+constexpr int kMostDepth = 64;          // of nodes, and of the JSON around them
+constexpr float kMostDistance = 1e12f;  // the square of its square is still a number
+constexpr std::size_t kMostNodes = 1'000'000;
+
+[[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
+    throw Error(ErrorCode::bad_input, sentence, where);
+}
+
+std::uint32_t little_endian(const std::vector<std::byte>& b, std::size_t at) {
+    return std::uint32_t(b[at]) | std::uint32_t(b[at + 1]) << 8 | std::uint32_t(b[at + 2]) << 16 |
+           std::uint32_t(b[at + 3]) << 24;
+}
+
+// What tinygltf does not check itself, or checks by recursion.
+void check_container(const std::string& where, const std::vector<std::byte>& bytes) {
+    if (bytes.size() < 20 || little_endian(bytes, 0) != 0x46546C67) {
+        refuse(where, "is not a GLB (binary glTF)");
+    }
+    if (little_endian(bytes, 4) != 2) refuse(where, "is not a GLB of glTF 2.0");
+    const std::size_t json = little_endian(bytes, 12);
+    if (little_endian(bytes, 8) > bytes.size() || json > bytes.size() - 20) {
+        refuse(where, "is truncated: the GLB ends early");
+    }
+    if (little_endian(bytes, 16) != 0x4E4F534A) refuse(where, "is a GLB without its JSON");
+    int depth = 0;
+    bool text = false;
+    for (std::size_t i = 20; i < 20 + json; ++i) {
+        const char c = char(bytes[i]);
+        if (text) {
+            if (c == '\\') {
+                ++i;
+            } else if (c == '"') {
+                text = false;
+            }
+        } else if (c == '"') {
+            text = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > kMostDepth) refuse(where, "is a GLB whose JSON is nested too deep");
+        } else if (c == '}' || c == ']') {
+            --depth;
+        }
+    }
+}
+
+tinygltf::Model parsed(const std::string& where, const std::vector<std::byte>& bytes) {
+    check_container(where, bytes);
+    tinygltf::TinyGLTF loader;
+    tinygltf::Model model;
+    // Materials are not looked at: no picture is decoded, no other file is opened.
+    loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
+                             const unsigned char*, int, void*) { return true; },
+                          nullptr);
+    tinygltf::FsCallbacks none{};
+    none.FileExists = [](const std::string&, void*) { return false; };
+    none.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    none.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
+        return false;
+    };
+    none.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                             void*) { return false; };
+    loader.SetFsCallbacks(none);
+    std::string errors, warnings;
+    bool read = false;
+    try {
+        read = loader.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                           reinterpret_cast<const unsigned char*>(bytes.data()),
+                                           unsigned(bytes.size()));
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        errors = error.what();
+    }
+    if (!read) {
+        const std::string first = errors.substr(0, std::min(errors.find('\n'), std::size_t(120)));
+        refuse(where, "is not a valid GLB" + (first.empty() ? "" : ": " + first));
+    }
+    return model;
+}
+
+// Walks the nodes and puts their triangles together.
+class Assembly {
+  public:
+    Assembly(const std::string& where, const tinygltf::Model& model)
+        : where_(where), model_(model) {}
+
+    Shape shape() {
+        const int wanted = model_.defaultScene >= 0 ? model_.defaultScene : 0;
+        if (model_.scenes.empty()) {
+            for (int i = 0; i < int(model_.meshes.size()); ++i) add_mesh(i, Matrix4{});
+        } else {
+            if (wanted >= int(model_.scenes.size())) refuse(where_, "has no such scene");
+            for (const int node : model_.scenes[std::size_t(wanted)].nodes) {
+                add_node(node, Matrix4{}, 0);
+            }
+        }
+        if (shape_.triangles.empty()) refuse(where_, "holds no triangles");
+        if (!has_tangents_) {
+            shape_.tangents.clear();
+            make_tangents(shape_);
+        }
+        shape_.beyond = Beyond::repeat;
+        return std::move(shape_);
+    }
+
+  private:
+    void add_node(int index, const Matrix4& parent, int depth) {
+        if (index < 0 || index >= int(model_.nodes.size())) refuse(where_, "has no such node");
+        if (depth > kMostDepth) refuse(where_, "has nodes within nodes, too deep or in a circle");
+        if (++nodes_ > kMostNodes) refuse(where_, "has more nodes than can be drawn");
+        const tinygltf::Node& node = model_.nodes[std::size_t(index)];
+        const std::optional<Matrix4> own =
+            matrix_of(node.matrix, node.translation, node.rotation, node.scale);
+        if (!own) refuse(where_, fmt::format("has a node ({}) moved by what is no number", index));
+        const Matrix4 matrix = parent * *own;
+        if (node.mesh >= 0) add_mesh(node.mesh, matrix);
+        for (const int child : node.children) add_node(child, matrix, depth + 1);
+    }
+
+    void add_mesh(int index, const Matrix4& matrix) {
+        if (index < 0 || index >= int(model_.meshes.size())) refuse(where_, "has no such mesh");
+        for (const tinygltf::Primitive& p : model_.meshes[std::size_t(index)].primitives) {
+            add_primitive(p, matrix);
+        }
+    }
+
+    Accessor attribute(const tinygltf::Primitive& p, const char* name, int components) const {
+        const auto found = p.attributes.find(name);
+        if (found == p.attributes.end()) return {};
+        return open_accessor(where_, model_, found->second, name, components);
+    }
+
+    void add_primitive(const tinygltf::Primitive& p, const Matrix4& matrix) {
+        const bool drawn = p.mode == TINYGLTF_MODE_TRIANGLES || p.mode == -1 ||
+                           p.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+                           p.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+        if (!drawn) return;  // points and lines
+        for (const char* packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+            if (p.extensions.count(packed) != 0) {
+                refuse(where_, fmt::format("is compressed ({}), which is not read", packed));
+            }
+        }
+        const Accessor positions = attribute(p, "POSITION", 3);
+        const Accessor normals = attribute(p, "NORMAL", 3);
+        const Accessor tangents = attribute(p, "TANGENT", 4);
+        const Accessor coordinates = attribute(p, "TEXCOORD_0", 2);
+        if (!positions.valid()) return;
+        if (!coordinates.valid()) {
+            refuse(where_,
+                   "has a mesh without texture coordinates, so no map can be laid on it; unwrap it "
+                   "(in Blender: UV > Smart UV Project) and export it again");
+        }
+        const std::size_t count = positions.count();
+        for (const Accessor* a : {&normals, &tangents, &coordinates}) {
+            if (a->valid() && a->count() != count) {
+                refuse(where_, "has a mesh whose attributes differ in length");
+            }
+        }
+        const std::vector<std::uint32_t> order = vertex_order(p, count);
+        if (shape_.triangles.size() + order.size() / 3 > kMaxTriangles) {
+            refuse(where_, fmt::format("has more than {} triangles", kMaxTriangles));
+        }
+        has_tangents_ = has_tangents_ && tangents.valid() && normals.valid();
+
+        const Matrix3 turn = matrix.linear();
+        const Matrix3 normal_turn = turn.cofactors();  // keeps normals normal under any scale
+        const bool mirrored = turn.determinant() < 0;
+        const auto first = std::uint32_t(shape_.vertex_count());
+        const bool flat = !normals.valid();
+        const std::size_t made = flat ? order.size() : count;
+        for (std::size_t k = 0; k < made; ++k) {
+            const std::size_t i = flat ? order[k] : k;
+            const auto at = positions.read<3>(i);
+            const Vec3F moved = matrix.moved({at[0], at[1], at[2]});
+            if (!(dot(moved, moved) < kMostDistance * kMostDistance)) {
+                refuse(where_, "has vertices that lie immensely far away");
+            }
+            shape_.positions.push_back(moved);
+            const auto uv = coordinates.read<2>(i);
+            shape_.coordinates.push_back({uv[0], uv[1]});
+            Vec3F n{0, 0, 1};
+            Tangent t;
+            if (!flat) {
+                const auto v = normals.read<3>(i);
+                n = unit_or_zero(normal_turn * Vec3F{v[0], v[1], v[2]});
+            }
+            if (has_tangents_) {
+                const auto v = tangents.read<4>(i);
+                t = {unit_or_zero(turn * Vec3F{v[0], v[1], v[2]}),
+                     (v[3] < 0 ? -1.0f : 1.0f) * (mirrored ? -1.0f : 1.0f)};
+            }
+            shape_.normals.push_back(n);
+            shape_.tangents.push_back(t);
+        }
+        for (std::size_t k = 0; k + 2 < order.size(); k += 3) {
+            std::array<std::uint32_t, 3> t{};
+            for (std::size_t c = 0; c < 3; ++c) {
+                t[c] = first + (flat ? std::uint32_t(k + c) : order[k + c]);
+            }
+            if (mirrored) std::swap(t[1], t[2]);
+            if (flat) flatten(t);
+            shape_.triangles.push_back(t);
+        }
+    }
+
+    void flatten(const std::array<std::uint32_t, 3>& t) {
+        const auto at = [&](std::size_t c) { return shape_.positions[t[c]]; };
+        const Vec3F n = unit_or_zero(cross(at(1) - at(0), at(2) - at(0)));
+        for (const std::uint32_t i : t) shape_.normals[i] = n;
+    }
+
+    // Three vertices per triangle, whatever the mode.
+    std::vector<std::uint32_t> vertex_order(const tinygltf::Primitive& p, std::size_t count) const {
+        std::vector<std::uint32_t> listed;
+        if (p.indices >= 0) {
+            const Accessor indices = open_accessor(where_, model_, p.indices, "indices", 1);
+            listed.reserve(indices.count());
+            for (std::size_t i = 0; i < indices.count(); ++i) {
+                const std::uint32_t index = indices.index(i);
+                if (index >= count)
+                    refuse(where_, "has a triangle with a vertex that is not there");
+                listed.push_back(index);
+            }
+        } else {
+            for (std::size_t i = 0; i < count; ++i) listed.push_back(std::uint32_t(i));
+        }
+        const std::size_t n = listed.size();
+        std::vector<std::uint32_t> order;
+        if (p.mode == TINYGLTF_MODE_TRIANGLE_STRIP || p.mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+            const bool fan = p.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+            for (std::size_t i = 0; i + 2 < n; ++i) {
+                const std::size_t odd = fan ? 0 : i % 2;
+                order.insert(order.end(),
+                             {listed[fan ? 0 : i], listed[i + 1 + odd], listed[i + 2 - odd]});
+            }
+        } else {
+            listed.resize(n - n % 3);
+            order = std::move(listed);
+        }
+        return order;
+    }
+
+    const std::string& where_;
+    const tinygltf::Model& model_;
+    Shape shape_;
+    bool has_tangents_ = true;
+    std::size_t nodes_ = 0;
+};
+
+}  // namespace
+
+Shape read_model(const std::filesystem::path& path) {
+    const std::string where = path.string();
+    const tinygltf::Model model = parsed(where, read_file(path));
+    return Assembly(where, model).shape();
+}
+
+}  // namespace verdigris
