@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -212,6 +213,9 @@ EntrantScores tables_for(const Entrant& entrant, const EvaluationProtocol& proto
     s.name = entrant.name;
     s.trained = entrant.trained();
     s.foreground = s.specimen = s.absolute = table;
+    s.pixels80 = s.pixels95 = s.mean80 = s.mean95 = table;
+    for (ErrorTable* t : {&s.pixels80, &s.pixels95, &s.mean80, &s.mean95})
+        std::ranges::fill(t->values, std::numeric_limits<double>::quiet_NaN());
     s.bias = {table, table, table};
     if (protocol.delta_e) s.delta_e = table;
     if (protocol.out_of_gamut) s.outside = s.outside_by_a_step = table;
@@ -269,7 +273,8 @@ void score_windows(const EvaluationProtocol& protocol, const Entry& entry,
     }
     for (EntrantScores& s : direction.entrants) {
         for (ErrorTable* t : {&s.foreground, &s.specimen, &s.absolute, &s.delta_e, &s.bias[0],
-                              &s.bias[1], &s.bias[2], &s.outside, &s.outside_by_a_step}) {
+                              &s.bias[1], &s.bias[2], &s.outside, &s.outside_by_a_step, &s.pixels80,
+                              &s.pixels95, &s.mean80, &s.mean95}) {
             keep_rows(*t, keep);
         }
     }

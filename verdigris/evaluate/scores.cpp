@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 #include "verdigris/error.h"
@@ -15,6 +16,20 @@ std::vector<double> horizon_means(const ErrorTable& table) {
         double sum = 0;
         for (int w = 0; w < table.windows; ++w) sum += table.at(w, k);
         means[std::size_t(k)] = sum / table.windows;
+    }
+    return means;
+}
+
+std::vector<double> known_means(const ErrorTable& table) {
+    std::vector<double> means;
+    for (int k = 0; k < table.horizons; ++k) {
+        double sum = 0, count = 0;
+        for (int w = 0; w < table.windows; ++w) {
+            if (!std::isfinite(table.at(w, k))) continue;
+            sum += table.at(w, k);
+            ++count;
+        }
+        means.push_back(count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN());
     }
     return means;
 }

@@ -37,6 +37,8 @@ struct ErrorTable {
 /// horizons; and per window the mean over horizons, which is what the bootstraps resample.
 std::vector<double> horizon_means(const ErrorTable& table);
 double overall_mean(const ErrorTable& table);
+/// Of the values that are numbers; NaN if there are none. Per horizon.
+std::vector<double> known_means(const ErrorTable& table);
 std::vector<double> window_means(const ErrorTable& table);
 
 /// Improvement over a reference, 1 - model / reference: a ratio of means ([Paper], Table 1), never
@@ -56,6 +58,8 @@ struct EntrantScores {
     /// Share of the area's pixels with a channel outside [0, 1] in the unclamped forecast, and
     /// outside by more than 1/255; empty if not asked for.
     ErrorTable outside, outside_by_a_step;
+    /// Shares inside the forecast's own nominal intervals (coverage.h); NaN where it states none.
+    ErrorTable pixels80, pixels95, mean80, mean95;
 };
 
 struct SkippedWindow {

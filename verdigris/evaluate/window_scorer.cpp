@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "verdigris/error.h"
+#include "verdigris/evaluate/coverage.h"
 #include "verdigris/evaluate/masked_error.h"
 
 namespace verdigris {
@@ -31,7 +32,8 @@ double share_outside(const Image<SrgbF>& frame, const PixelWeights& area, double
 bool holds(const Forecast& forecast, const Context& context) {
     const Trajectory& t = forecast.trajectory;
     const Image<SrgbF>& last = context.frames.back();
-    return forecast.is_trajectory() && t.law.order == 0 && t.base.same_size(last) &&
+    return forecast.is_trajectory() && t.law.order == 0 && !forecast.spread.known() &&
+           t.base.same_size(last) &&
            std::memcmp(t.base.row(0), last.row(0), last.byte_count()) == 0;
 }
 
@@ -175,6 +177,11 @@ void WindowScorer::score_one(const Forecast& forecast, int start, int row, Entra
             scores.delta_e.at(row, k) =
                 mean_delta_e2000(scratch.lab, scratch.truth_lab[std::size_t(k)]);
         }
+        const Coverage c = coverage_of(forecast.spread, h, frame, real, specimen_, scratch.spread);
+        scores.pixels80.at(row, k) = c.pixels80;
+        scores.pixels95.at(row, k) = c.pixels95;
+        scores.mean80.at(row, k) = c.mean80;
+        scores.mean95.at(row, k) = c.mean95;
         if (!protocol_.out_of_gamut) continue;
         const auto share = [&](double slack) {
             return forecast.is_trajectory()

@@ -18,7 +18,7 @@ namespace verdigris {
 /// What one thread needs for one window; kept between windows, so that nothing is allocated.
 struct WindowScratch {
     Context context;
-    Image<SrgbF> canvas, prediction;
+    Image<SrgbF> canvas, prediction, spread;
     std::vector<float> sort;
     std::vector<PixelWeights> foreground;
     std::vector<LabPlanes> truth_lab;

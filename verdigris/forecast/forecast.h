@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "verdigris/color/pixel_types.h"
+#include "verdigris/forecast/spread.h"
 #include "verdigris/observe/observe.h"
 #include "verdigris/pixels/image.h"
 #include "verdigris/status.h"
@@ -88,6 +89,7 @@ struct Forecast {
     std::string explanation;  ///< which evidence decided, in a sentence
     Trajectory trajectory;    ///< used unless `stack` has frames
     FrameStack stack;
+    Spread spread;  ///< how far off it may be; of few forecasters
     int context_length = 0;
     Statuses guards;  ///< those that hold at every horizon
 

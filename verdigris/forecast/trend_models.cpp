@@ -17,7 +17,8 @@ struct Slowing {
     double kappa, prior;
 };
 constexpr Slowing kSlowing[] = {{0, .15}, {.02, .20}, {.05, .25}, {.1, .20}, {.2, .12}, {.5, .08}};
-constexpr double kDoubt = .01;  // per unit ahead: no drift is trusted to stay as it is for ever
+constexpr double kDoubt = .01;   // per unit ahead: no drift is trusted to stay as it is for ever
+constexpr double kTrusted = 50;  // units after which a drift may as well be another one
 constexpr double kWandering[] = {0, .3, .6, .8, .92, .98, 1};
 constexpr double kBending[] = {.5, .75, .85, .92, .96, .99};
 constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
@@ -30,6 +31,26 @@ constexpr double kEventSize[] = {10, 1e3, 1e5};  // variance, of V
 double covariance_at(bool bending, double rho, double lag) {
     const double fall = lag == 0 ? 1 : std::pow(rho, lag);
     return bending ? (1 - std::log(rho) * lag) * fall : fall;
+}
+
+/// Variance of what a drift adds up to, for kTrendUnits ahead.
+VectorXd variance_ahead(bool bending, double rho, double kappa) {
+    const int last = int(kTrendUnits.back());
+    std::vector<double> covariance, size;
+    for (int lag = 0; lag <= last; ++lag) {
+        covariance.push_back(covariance_at(bending, rho, lag));
+        size.push_back(std::exp(-kappa * lag));
+    }
+    VectorXd out(Eigen::Index(kTrendUnits.size()));
+    double sum = 0;
+    for (int ahead = 1, u = 0; ahead <= last; ++ahead) {
+        double with_earlier = 0;
+        for (int i = 1; i < ahead; ++i)
+            with_earlier += size[std::size_t(i)] * covariance[std::size_t(ahead - i)];
+        sum += size[std::size_t(ahead)] * (2 * with_earlier + size[std::size_t(ahead)]);
+        if (ahead == int(kTrendUnits[std::size_t(u)])) out[u++] = sum;
+    }
+    return out;
 }
 
 /// Of differences of white noise of variance 1.
@@ -48,6 +69,8 @@ TrendModels::TrendModels(int increments) : increments_(increments) {
         events_.push_back({VectorXd::Unit(q, i - 1) - VectorXd::Unit(q, i), i, true});
 
     const MatrixXd noise = noise_of_increments(q);
+    const VectorXd units_ahead = Eigen::Map<const VectorXd>(kTrendUnits.data(), units);
+    const VectorXd doubted = 1 - (-(units_ahead / kTrusted).array().cube()).exp();
     const auto add_family = [&](bool bending, double rho, const Slowing& slowing, double prior) {
         MatrixXd drift(q, q), future = MatrixXd::Zero(units, q);
         const auto size = [&](double back) { return std::exp(slowing.kappa * back); };
@@ -65,10 +88,14 @@ TrendModels::TrendModels(int increments) : increments_(increments) {
                 future(u, i) = sum;
             }
         }
+        const VectorXd drifting = variance_ahead(bending, rho, slowing.kappa + kDoubt);
+        const VectorXd ahead =
+            drifting + doubted.cwiseProduct(variance_ahead(bending, rho, slowing.kappa));
         for (const double eta : kNoise) {
             MatrixXd with_future = future;
             with_future.col(q - 1).array() -= eta;  // the last frame's noise goes away again
             add(drift + eta * noise + kFloor * MatrixXd::Identity(q, q), with_future,
+                ahead + VectorXd::Constant(units, 2 * eta) + kFloor * units_ahead,
                 prior * slowing.prior / double(std::size(kNoise)));
         }
     };
@@ -78,17 +105,20 @@ TrendModels::TrendModels(int increments) : increments_(increments) {
         for (const double rho : kBending) add_family(true, rho, slowing, share);
     }
     MatrixXd held = MatrixXd::Zero(units, q);
-    add(MatrixXd::Identity(q, q), held, kWalk);
+    add(MatrixXd::Identity(q, q), held, units_ahead, kWalk);
     held.col(q - 1).setConstant(-1);
-    add(noise + 10 * kFloor * MatrixXd::Identity(q, q), held, kNothingButNoise);
+    add(noise + 10 * kFloor * MatrixXd::Identity(q, q), held,
+        VectorXd::Constant(units, 2) + 10 * kFloor * units_ahead, kNothingButNoise);
 }
 
-void TrendModels::add(const MatrixXd& covariance, const MatrixXd& with_future, double prior) {
+void TrendModels::add(const MatrixXd& covariance, const MatrixXd& with_future,
+                      const VectorXd& future, double prior) {
     const Eigen::LLT<MatrixXd> cholesky(covariance);
     Model m;
     m.precision = cholesky.solve(MatrixXd::Identity(increments_, increments_));
     m.log_determinant = 2 * cholesky.matrixLLT().diagonal().array().log().sum();
     m.weights = with_future * m.precision;
+    m.unexplained = (future - m.weights.cwiseProduct(with_future).rowwise().sum()).cwiseMax(0);
     m.log_prior = std::log(prior);
     m.at_events.resize(increments_, Eigen::Index(events_.size()));
     m.of_events.resize(Eigen::Index(events_.size()));
@@ -127,26 +157,45 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     double total = 0;
     for (double& e : evidence) total += e = std::exp(e - best);
 
+    // V is fitted to count q values: as of a t distribution, its uncertainty widens the error.
+    const double freedom = std::max(count * q, 3.0);
+    const double widened = freedom / (freedom - 2);
+    const auto units = Eigen::Index(kTrendUnits.size());
     Trend out;
-    out.weights = MatrixXd::Zero(Eigen::Index(kTrendUnits.size()), increments_);
+    out.weights = MatrixXd::Zero(units, increments_);
+    VectorXd square = VectorXd::Zero(units), left = VectorXd::Zero(units);
     std::vector<double> of_event(events, 0);
     std::size_t k = 0;
     for (const Model& m : models_) {
+        const double all = (m.precision.array() * g.array()).sum();
+        const MatrixXd with_gram = m.weights * g;
+        const VectorXd plain = with_gram.cwiseProduct(m.weights).rowwise().sum();
         double of_model = evidence[k++] / total;
+        if (of_model > 1e-9) {
+            square += of_model * plain;
+            left += of_model * all / q * m.unexplained;
+        }
         for (std::size_t e = 0; e < events; ++e) {
+            const auto column = Eigen::Index(e);
             for (const double tau : kEventSize) {
                 const double p = evidence[k++] / total;
                 if (p < 1e-9) continue;
                 of_model += p;
                 of_event[e] += p;
-                const auto column = Eigen::Index(e);
-                out.weights -= (p * tau / (1 + tau * m.of_events[column])) *
-                               (m.weights * events_[e].direction) *
-                               m.at_events.col(column).transpose();
+                const auto at = m.at_events.col(column);
+                const VectorXd toward = m.weights * events_[e].direction;
+                const double share = tau / (1 + tau * m.of_events[column]);
+                const double seen = at.dot(g * at);
+                out.weights -= (p * share) * toward * at.transpose();
+                square += p * (plain - 2 * share * toward.cwiseProduct(with_gram * at) +
+                               share * share * seen * toward.cwiseAbs2());
+                left += p * (all - share * seen) / q * (m.unexplained + share * toward.cwiseAbs2());
             }
         }
         out.weights += of_model * m.weights;
     }
+    out.change = scale * (out.weights * g).cwiseProduct(out.weights).rowwise().sum();
+    out.error = (scale * square - out.change).cwiseMax(0) + scale * widened * left;
     for (std::size_t e = 0; e < events; ++e) out.event += of_event[e];
     const auto likeliest = std::max_element(of_event.begin(), of_event.end()) - of_event.begin();
     out.event_frame = events_[std::size_t(likeliest)].frame;

@@ -19,6 +19,9 @@ inline constexpr std::array kTrendUnits{1.,  2.,  3.,  4.,  5.,  6.,  7.,  8.,  
 struct Trend {
     /// [kTrendUnits x increments]: the change from the last frame on.
     Eigen::MatrixXd weights;
+    /// Per kTrendUnits, in the unit of `gram`: mean square of that change, and of what the frame
+    /// then will differ from it, its own noise included.
+    Eigen::VectorXd change, error;
     double event = 0;      ///< probability of a step or an outlier among the frames
     int event_frame = 0;   ///< of the likeliest: the first frame after a step, or the outlier
     bool outlier = false;  ///< which of the two it is
@@ -43,8 +46,9 @@ class TrendModels {
 
   private:
     struct Model {
-        Eigen::MatrixXd precision;  ///< of the increments at V = 1
-        Eigen::MatrixXd weights;    ///< [kTrendUnits x increments]
+        Eigen::MatrixXd precision;    ///< of the increments at V = 1
+        Eigen::MatrixXd weights;      ///< [kTrendUnits x increments]
+        Eigen::VectorXd unexplained;  ///< variance of the change to come that they leave, V = 1
         double log_determinant = 0;
         double log_prior = 0;
         Eigen::MatrixXd at_events;  ///< precision * event, a column per event
@@ -55,7 +59,9 @@ class TrendModels {
         int frame = 0;
         bool outlier = false;
     };
-    void add(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& with_future, double prior);
+    /// `with_future`: covariance of the change to come with the increments; `future`: its own.
+    void add(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& with_future,
+             const Eigen::VectorXd& future, double prior);
 
     int increments_ = 0;
     std::vector<Event> events_;

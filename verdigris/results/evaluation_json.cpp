@@ -31,6 +31,11 @@ SurfacePrint surface_from(const Json& json, const std::string& where) {
         throw Error(ErrorCode::bad_input, "has the print of a surface in another size", where);
     return print;
 }
+double mean_of(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double v : values) sum += v;
+    return sum / double(values.size());
+}
 double mean(const ErrorTable& t) {
     return t.empty() || t.windows == 0 ? std::nan("") : overall_mean(t);
 }
@@ -46,6 +51,11 @@ Json scores_json(const Direction& d, const EntrantScores& s, const EntrantVerdic
                 {"bias",
                  {number_json(mean(s.bias[0])), number_json(mean(s.bias[1])),
                   number_json(mean(s.bias[2]))}}};
+    if (std::isfinite(mean_of(known_means(s.pixels80))))
+        out["coverage"] = {{"pixels_80", numbers_json(known_means(s.pixels80))},
+                           {"pixels_95", numbers_json(known_means(s.pixels95))},
+                           {"mean_80", numbers_json(known_means(s.mean80))},
+                           {"mean_95", numbers_json(known_means(s.mean95))}};
     if (!v) return out;
     out["gain"] = number_json(v->gain);
     out["gain_per_horizon"] = any ? numbers_json(horizon_gains(d, s)) : Json();

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/band_components.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "verdigris/forecast/context_pixels.h"
+#include "verdigris/pixels/parallel_rows.h"
+
+namespace verdigris {
+namespace {
+
+using Eigen::MatrixXd;
+
+// chosen; docs/models/bandtrend.md has the sensitivity to both.
+constexpr double kGlobalCount = 2;     // a global drift has few independent parts: light, and color
+constexpr double kLargestCount = 100;  // neighbors are never as independent as they look
+// chosen: what a pixel did is told from its neighborhood, so that it is not told from its noise.
+constexpr int kEnergySigma = 2;
+
+/// `share`: of the pixels that move. Means of squares are then over these.
+Component forecast_component(const Increments& d, double count, double share,
+                             const TrendModels& models) {
+    Component c;
+    c.count = count;
+    c.increments = gram_of(d) / share;
+    if (!(c.increments.trace() > 0)) return c;
+    c.trend = models.trend(c.increments, count);
+    const FewTerms few = few_terms(c.trend.weights, c.increments);
+    c.laws = few.laws;
+    c.gram = few.parts * c.increments * few.parts.transpose();
+    for (int i = 0; i < kTerms; ++i) c.terms.push_back(combined(d, few.parts.row(i)));
+    return c;
+}
+
+/// Mean square of the increments, per pixel and channel.
+Image<SrgbF> energy_of(const Increments& d, const Mask& moving) {
+    ColorField energy;
+    const MaskedGaussian gaussian(moving, kEnergySigma);
+    parallel_for(3, [&](int i) {
+        const auto k = std::size_t(i);
+        Field sum(d.front()[k].size(), 0);
+        const float share = 1 / float(d.size());
+        for (const ColorField& one : d)
+            for (std::size_t at = 0; at < sum.size(); ++at)
+                sum[at] += share * one[k][at] * one[k][at];
+        gaussian.mean(sum, energy[k]);
+    });
+    Image<SrgbF> out(moving.width(), moving.height());
+    for (std::size_t at = 0; at < out.pixels().size(); ++at)
+        out.pixels()[at] = {energy[0][at], energy[1][at], energy[2][at]};
+    return out;
+}
+
+SrgbF mean_energy(const Image<SrgbF>& energy, double inside) {
+    double r = 0, g = 0, b = 0;
+    for (const SrgbF& e : energy.pixels()) r += double(e.r), g += double(e.g), b += double(e.b);
+    return {float(r / inside), float(g / inside), float(b / inside)};
+}
+
+}  // namespace
+
+FewTerms few_terms(const MatrixXd& weights, const MatrixXd& gram) {
+    const auto q = gram.rows();
+    const double floor = 1e-12 * gram.trace() / double(q) + 1e-30;
+    const MatrixXd half = Eigen::LLT<MatrixXd>(gram + floor * MatrixXd::Identity(q, q)).matrixL();
+    const MatrixXd change = weights * half;
+    const Eigen::VectorXd size = (change.rowwise().squaredNorm().array() + 1e-30).sqrt();
+    const Eigen::JacobiSVD<MatrixXd> svd(size.cwiseInverse().asDiagonal() * change,
+                                         Eigen::ComputeThinU | Eigen::ComputeThinV);
+    FewTerms out{MatrixXd::Zero(weights.rows(), kTerms), MatrixXd::Zero(kTerms, weights.cols())};
+    for (int i = 0; i < std::min<int>(kTerms, int(svd.singularValues().size())); ++i) {
+        const double s = svd.singularValues()[i];
+        if (!(s > 1e-9 * svd.singularValues()[0]) || !(s > 0)) break;
+        out.laws.col(i) = size.asDiagonal() * svd.matrixU().col(i) * s;
+        out.parts.row(i) =
+            svd.matrixU().col(i).transpose() * size.cwiseInverse().asDiagonal() * weights / s;
+    }
+    return out;
+}
+
+const TrendModels& TrendModelsCache::of(int increments) {
+    const std::lock_guard lock(mutex_);
+    auto& slot = made_[increments];
+    if (!slot) slot = std::make_unique<TrendModels>(increments);
+    return *slot;
+}
+
+Components components_of(const Context& context, const Mask& moving, TrendModelsCache& models) {
+    Increments rest = increments_of(context, moving);
+    const TrendModels& trends = models.of(int(rest.size()));
+    const double area = double(count_inside(moving));
+    const double share = area / double(moving.pixel_count());
+    Components out;
+    Increments part = affine_part(context, moving, rest);
+    subtract(part, rest);
+    out.all.push_back(forecast_component(part, kGlobalCount, share, trends));
+    out.has_global = !out.all.front().terms.empty();
+    out.global_energy = mean_energy(energy_of(part, moving), area);
+    out.local_energy = energy_of(rest, moving);
+    for (const int sigma : band_sigmas(moving.width(), moving.height())) {
+        smooth_part(rest, moving, sigma, part);
+        subtract(part, rest);
+        const double cells = area / (4 * std::numbers::pi * sigma * sigma);
+        out.all.push_back(
+            forecast_component(part, std::clamp(cells, 1.0, kLargestCount), share, trends));
+    }
+    out.all.push_back(forecast_component(rest, kLargestCount, share, trends));
+    std::erase_if(out.all, [](const Component& c) { return c.terms.empty(); });
+    return out;
+}
+
+}  // namespace verdigris

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// The change of a context split into components, each with its trend (internal).
+// Model: docs/models/bandtrend.md
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "verdigris/forecast/increments.h"
+#include "verdigris/forecast/trend_models.h"
+
+namespace verdigris {
+
+inline constexpr int kTerms = 2;  ///< of a trajectory
+
+/// A product of few laws over kTrendUnits with as many combinations of what `weights` combines.
+struct FewTerms {
+    Eigen::MatrixXd laws;   ///< [units x terms]
+    Eigen::MatrixXd parts;  ///< [terms x columns of weights]
+};
+/// The closest in squared change, each horizon relative to its own size. `gram`: of what `weights`
+/// combines.
+FewTerms few_terms(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& gram);
+
+/// What is known of one component once its increments are forgotten. Squares are means over what
+/// moves and channels.
+struct Component {
+    Eigen::MatrixXd laws;           ///< [units x terms]
+    Eigen::MatrixXd gram;           ///< of its terms' images
+    std::vector<ColorField> terms;  ///< three planes each
+    Trend trend;
+    Eigen::MatrixXd increments;  ///< mean products of its increments
+    double count = 0;            ///< independent parts of it
+};
+
+/// Grids of models, made once for each number of increments. For several threads at once.
+class TrendModelsCache {
+  public:
+    const TrendModels& of(int increments);
+
+  private:
+    std::mutex mutex_;
+    std::map<int, std::unique_ptr<TrendModels>> made_;
+};
+
+struct Components {
+    std::vector<Component> all;  ///< the global drift first, if there is any change of it
+    bool has_global = false;
+    /// Mean square of the channels of the global increments, and per value of all others.
+    SrgbF global_energy{};
+    Image<SrgbF> local_energy;
+};
+
+Components components_of(const Context& context, const Mask& moving, TrendModelsCache& models);
+
+}  // namespace verdigris
