@@ -109,6 +109,16 @@ Forecast forecast(const Context& context, bool clamp, TrendModelsCache& models) 
     return f;
 }
 
+/// From where on a trend is held, in a sentence; of one that never is, nothing.
+std::string held_sentence(const TimeLaw& law) {
+    const double last = law.nodes.back().horizon;
+    if (last >= kTrendUnits.back()) return "";
+    return fmt::format(
+        " Beyond +{:.0f} the trend is held: further on it is not sure enough to beat holding "
+        "still.",
+        last);
+}
+
 double error_on(const Forecast& f, const Context& truth, int begin, int count, const Mask& moving) {
     double sum = 0;
     for (int i = 0; i < count; ++i)
@@ -154,8 +164,8 @@ Forecaster band_trend(const BandTrendOptions& options) {
                              : Context();
                 const Context& used = long_one ? recent : context;
                 Forecast f = forecast(used, options.clamp, *models);
-                if (options.explain && f.trajectory.law.order > 0)
-                    f.explanation += evidence(used, *models);
+                if (options.explain && f.trajectory.law.tabulated())
+                    f.explanation += evidence(used, *models) + held_sentence(f.trajectory.law);
                 f.context_length = context.length();
                 return f;
             }};

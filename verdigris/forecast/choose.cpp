@@ -86,11 +86,17 @@ Forecast choose(const Context& context, const ChooseOptions& options) {
 }  // namespace
 
 Forecaster automatic(const ChooseOptions& options) {
-    return {"auto", [options](const Context& context) { return choose(context, options); }};
+    Forecaster best = band_trend({.clamp = options.clamp});
+    best.name = "auto";
+    return best;
+}
+
+Forecaster back_tested(const ChooseOptions& options) {
+    return {"backtest", [options](const Context& context) { return choose(context, options); }};
 }
 
 std::vector<std::string> forecaster_names() {
-    std::vector<std::string> names{"auto", "bandtrend", "persistence", "affinergb"};
+    std::vector<std::string> names{"auto", "bandtrend", "backtest", "persistence", "affinergb"};
     for (AffineFamily family : kFamilies) {
         for (int order : {1, 2}) {
             names.push_back(fmt::format("affinergb-{}-{}", to_string(family), order));
@@ -101,6 +107,7 @@ std::vector<std::string> forecaster_names() {
 
 Forecaster forecaster_by_name(const std::string& name, const ChooseOptions& options) {
     if (name == "auto") return automatic(options);
+    if (name == "backtest") return back_tested(options);
     if (name == "persistence") return persistence();
     if (name == "bandtrend") return band_trend({.clamp = options.clamp});
     AffineOptions affine{AffineFamily::full, 1, options.ridge_k, options.pixels, options.clamp};

@@ -24,14 +24,17 @@ struct BacktestRow {
     int frames_predicted = 0;
 };
 
-/// `auto`: rolling-origin back-test of persistence and the affine family inside the context; the
-/// winner is refitted on all of it. Persistence wins ties, and whenever the context is too short
-/// to hold anything back. The explanation quotes the evidence.
+/// `auto`: the best there is without training, bandtrend (band_trend.h), under the name "auto".
 Forecaster automatic(const ChooseOptions& options = {});
+
+/// "backtest": rolling-origin back-test of persistence and the affine family inside the context;
+/// the winner is refitted on all of it. Persistence wins ties, and whenever the context is too
+/// short to hold anything back. The explanation quotes the evidence.
+Forecaster back_tested(const ChooseOptions& options = {});
 std::vector<BacktestRow> backtest(const Context& context, const ChooseOptions& options = {});
 
-/// "auto", "persistence", "affinergb" (full), "affinergb-full-1", "affinergb-per-channel-2", ...
-/// Throws Error{usage} listing the names.
+/// "auto", "bandtrend", "backtest", "persistence", "affinergb" (full), "affinergb-full-1",
+/// "affinergb-per-channel-2", ... Throws Error{usage} listing the names.
 Forecaster forecaster_by_name(const std::string& name, const ChooseOptions& options = {});
 std::vector<std::string> forecaster_names();
 

@@ -28,10 +28,10 @@ Context reversing(int n, double turn, double sigma, unsigned seed) {
     return context;
 }
 
-TEST(Automatic, PicksTheDriftThatIsThere) {
+TEST(BackTested, PicksTheDriftThatIsThere) {
     for (int n : {5, 6, 10}) {
         const Context context = drifting(n, planted_drift(), 0.001, 2);
-        const Forecast f = automatic().forecast(context);
+        const Forecast f = back_tested().forecast(context);
         EXPECT_EQ(f.forecaster.rfind("affinergb", 0), 0u) << n << ": " << f.explanation;
         EXPECT_NE(f.explanation.find("better than holding still"), std::string::npos);
         EXPECT_EQ(f.context_length, n);
@@ -39,8 +39,8 @@ TEST(Automatic, PicksTheDriftThatIsThere) {
     }
 }
 
-TEST(Automatic, QuotesTheEvidence) {
-    const Forecast f = automatic().forecast(drifting(10, planted_drift(), 0.001, 2));
+TEST(BackTested, QuotesTheEvidence) {
+    const Forecast f = back_tested().forecast(drifting(10, planted_drift(), 0.001, 2));
     EXPECT_NE(f.explanation.find("the last 5 frames"), std::string::npos) << f.explanation;
     const auto rows = backtest(drifting(10, planted_drift(), 0.001, 2));
     ASSERT_EQ(rows.size(), 7u);
@@ -52,11 +52,12 @@ TEST(Automatic, QuotesTheEvidence) {
                 1 - rows[1].mean_squared_error / rows[0].mean_squared_error, 1e-12);
 }
 
-TEST(Automatic, HoldsStillOnPureNoise) {
+TEST(BackTested, HoldsStillOnPureNoise) {
     int held = 0, textured = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
         for (int n : {5, 10}) {
-            held += automatic().forecast(drifting(n, {}, 0.005, seed)).forecaster == "persistence";
+            held +=
+                back_tested().forecast(drifting(n, {}, 0.005, seed)).forecaster == "persistence";
             // No contrast but noise: shrinking the noise of the last frame must earn nothing, with
             // or without the ridge.
             Context flat = drifting(n, {}, 0);
@@ -68,39 +69,39 @@ TEST(Automatic, HoldsStillOnPureNoise) {
             flat.sigma = 0.005;
             ChooseOptions paper;
             paper.ridge_k = 0;
-            textured += automatic(paper).forecast(flat).forecaster == "persistence";
+            textured += back_tested(paper).forecast(flat).forecaster == "persistence";
         }
     }
     EXPECT_EQ(held, 40);
     EXPECT_GE(textured, 38);
 }
 
-TEST(Automatic, DoesNotFollowWhatItsContextRefutes) {
+TEST(BackTested, DoesNotFollowWhatItsContextRefutes) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         for (const auto& [n, turn] :
              {std::pair{10, 6.0}, std::pair{10, 5.0}, std::pair{5, 2.5}, std::pair{6, 3.0}}) {
-            const Forecast f = automatic().forecast(reversing(n, turn, 0.001, seed));
+            const Forecast f = back_tested().forecast(reversing(n, turn, 0.001, seed));
             EXPECT_EQ(f.forecaster, "persistence") << n << " " << turn << ": " << f.explanation;
             EXPECT_NE(f.explanation.find("the last observed state is held"), std::string::npos);
         }
     }
 }
 
-TEST(Automatic, NothingChangesNothingIsForecast) {
-    const Forecast f = automatic().forecast(drifting(8, {}));
+TEST(BackTested, NothingChangesNothingIsForecast) {
+    const Forecast f = back_tested().forecast(drifting(8, {}));
     EXPECT_EQ(f.forecaster, "persistence");
 }
 
-TEST(Automatic, SaysWhenThereIsTooLittle) {
+TEST(BackTested, SaysWhenThereIsTooLittle) {
     for (int n : {1, 2, 4}) {
-        const Forecast f = automatic().forecast(drifting(n, planted_drift()));
+        const Forecast f = back_tested().forecast(drifting(n, planted_drift()));
         EXPECT_EQ(f.forecaster, "persistence");
         EXPECT_NE(f.explanation.find("nothing to hold back"), std::string::npos) << f.explanation;
     }
     EXPECT_TRUE(backtest(drifting(4, planted_drift())).empty());
 }
 
-TEST(Automatic, JudgesTheSpecimenOnly) {
+TEST(BackTested, JudgesTheSpecimenOnly) {
     Context context = drifting(8, planted_drift(), 0.001, 4);
     context.specimen = Mask(48, 40);  // the specimen rests, the backdrop drifts
     for (int y = 10; y < 30; ++y) {
@@ -111,10 +112,10 @@ TEST(Automatic, JudgesTheSpecimenOnly) {
             }
         }
     }
-    EXPECT_EQ(automatic().forecast(context).forecaster, "persistence");
+    EXPECT_EQ(back_tested().forecast(context).forecaster, "persistence");
 }
 
-TEST(Automatic, SameAnswerOnAnyNumberOfThreads) {
+TEST(BackTested, SameAnswerOnAnyNumberOfThreads) {
     const Context context = drifting(9, planted_drift(), 0.002, 8, 90, 70);
     set_thread_count(1);
     const auto one = backtest(context);
@@ -124,6 +125,16 @@ TEST(Automatic, SameAnswerOnAnyNumberOfThreads) {
     for (std::size_t i = 0; i < one.size(); ++i) {
         EXPECT_EQ(one[i].mean_squared_error, all[i].mean_squared_error);
     }
+}
+
+TEST(Automatic, IsBandtrendUnderItsOwnName) {
+    const Context context = drifting(6, planted_drift(), 0.001, 2);
+    const Forecaster best = forecaster_by_name("auto");
+    EXPECT_EQ(best.name, "auto");
+    const Forecast a = best.forecast(context),
+                   b = forecaster_by_name("bandtrend").forecast(context);
+    EXPECT_EQ(a.forecaster, "bandtrend");
+    EXPECT_EQ(largest_difference(a.at(7), b.at(7)), 0);
 }
 
 TEST(ForecasterByName, KnowsAllItsNames) {

@@ -46,7 +46,7 @@ TEST(RealCopper, TheChoiceDoesNoHarm) {
     const fs::path folder = fs::path(VERDIGRIS_SHARED_DATA) / "real" / "copper_patinating";
     if (!fs::exists(folder)) GTEST_SKIP() << "no real copper frames at " << folder;
     constexpr int kUnit = 2, kContext = 5, kHorizon = 10;  // frames per unit, as the paper's K
-    double held = 0, chosen = 0, followed = 0;
+    double held = 0, chosen = 0, automatically = 0, followed = 0;
     for (int start = 1; start + kUnit * (kContext + kHorizon - 1) < 100; start += 10) {
         Context context;
         for (int i = 0; i < kContext; ++i) {
@@ -55,7 +55,8 @@ TEST(RealCopper, TheChoiceDoesNoHarm) {
         context.sigma = 3.4 / 255 / 2;  // of one frame (README of the data), four pixels averaged
         context.tau = 2.4 * context.sigma;
         const Forecast hold = persistence().forecast(context);
-        const Forecast choice = automatic().forecast(context);
+        const Forecast choice = back_tested().forecast(context);
+        const Forecast best = automatic().forecast(context);
         AffineOptions paper;
         paper.ridge_k = 0;
         const Forecast drift = affinergb(paper).forecast(context);
@@ -63,11 +64,13 @@ TEST(RealCopper, TheChoiceDoesNoHarm) {
             const Image<SrgbF> truth = frame(folder, start + (kContext - 1 + k) * kUnit);
             held += squared_error(hold.at(k), truth);
             chosen += squared_error(choice.at(k), truth);
+            automatically += squared_error(best.at(k), truth);
             followed += squared_error(drift.at(k), truth);
         }
     }
     EXPECT_GT(followed, 1.1 * held);  // the trap is real ...
     EXPECT_LT(chosen, 1.05 * held);   // ... and avoided
+    EXPECT_LT(automatically, 0.9 * held);
 }
 
 }  // namespace
