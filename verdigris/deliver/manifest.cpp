@@ -49,6 +49,7 @@ void write_manifest(const Delivery& delivery, const std::vector<fs::path>& files
     rest["units_observed"] = delivery.units_observed;
     rest["unit"] = kUnitSentence;
     rest["horizons"] = delivery.horizons;
+    rest["uncertainty"] = uncertainty_json(delivery);
     rest["guards"] = guards_json(delivery.guards);
     rest["origins"] = origins_json(*delivery.forecast, *delivery.recipe);
     rest["noise"] = {{"tau", delivery.recipe->tau}};

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "verdigris/deliver/uncertainty.h"
+
 namespace verdigris {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr Ink kText{0xECEAE6}, kMuted{0x9DA3A8}, kAmber{0xE6B450}, kRed{0xF0737C
 constexpr TextStyle kHeading{14, kMuted, true}, kBody{16, kText}, kSmall{15, kMuted};
 constexpr int kLeading = 24;
 // chosen: a sheet is a picture; whoever needs every word finds it in manifest.json.
-constexpr int kMaxGuards = 8, kGuardLines = 4, kExplanationLines = 8;
+constexpr int kMaxGuards = 8, kGuardLines = 4, kExplanationLines = 8, kUncertaintyLines = 4;
 
 struct SeverityWord {
     const char* word;
@@ -60,6 +62,8 @@ SheetNotes::SheetNotes(const Delivery& delivery, int width) : width_(width) {
     const std::string& explanation = delivery.forecast->explanation;
     add_paragraph(explanation.empty() ? "No explanation was recorded." : explanation, kBody, 0, 32,
                   kExplanationLines);
+    const std::string sure = uncertainty_sentence(uncertainty_of(delivery));
+    if (!sure.empty()) add_paragraph(sure, kBody, 0, 36, kUncertaintyLines);
     add("WHAT TO MIND", kHeading, 0, 48);
     if (delivery.guards.empty()) {
         add_paragraph("No guard fired: the context is long enough and behaves.", kBody, 0, 32, 2);

@@ -130,6 +130,7 @@ Json people_json(const Delivery& delivery, PictureSize extent) {
             {"context", delivery.forecast->context_length},
             {"units_observed", delivery.units_observed},
             {"horizons", delivery.horizons},
+            {"uncertainty", uncertainty_json(delivery)},
             {"forecaster",
              {{"name", delivery.forecast->forecaster},
               {"explanation", delivery.forecast->explanation}}},

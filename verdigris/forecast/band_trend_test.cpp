@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/forecast/band_trend.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -156,6 +157,56 @@ TEST(BandTrend, TellsHowItDidOnTheEndOfTheContext) {
         band_trend().forecast(seen(scene, 6)).explanation.find("better than by holding still"),
         std::string::npos);
     EXPECT_EQ(band_trend({.explain = false}).forecast(seen(scene, 6)).explanation, "");
+}
+
+TEST(BandTrend, ItsIntervalsHoldOnItsOwnKindOfScene) {
+    // A drift that bends slowly, and noise: over seeds, as often inside as they say.
+    double inside80 = 0, inside95 = 0, all = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        std::mt19937 random(100 + seed);
+        const double bend = std::uniform_real_distribution<double>(-0.02, 0.01)(random);
+        const Scene scene = [&](int t) { return plate(t + bend * t * t); };
+        const Context context = seen(scene, 7, 0.003, seed);
+        const Forecast f = band_trend().forecast(context);
+        ASSERT_TRUE(f.spread.known());
+        std::mt19937 noise(200 + seed);
+        for (int k = 1; k <= 10; ++k) {
+            Image<SrgbF> truth = scene(6 + k), sd;
+            add_noise(truth, 0.003, noise);
+            const Image<SrgbF> frame = f.at(k);
+            spread_image(f.spread, k, sd);
+            for (std::size_t i = 0; i < sd.pixel_count(); ++i) {
+                const double s = double(sd.pixels()[i].g);
+                if (!(s > 0)) continue;
+                const double off =
+                    std::abs(double(frame.pixels()[i].g) - double(truth.pixels()[i].g));
+                inside80 += off <= kHalfWidth80 * s;
+                inside95 += off <= kHalfWidth95 * s;
+                ++all;
+            }
+        }
+    }
+    EXPECT_NEAR(inside80 / all, 0.80, 0.10);
+    EXPECT_NEAR(inside95 / all, 0.95, 0.04);
+}
+
+TEST(BandTrend, HoldsFromWhereItIsNotSureAndSaysSo) {
+    // A drift that wanders: it cannot be known for long.
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    std::vector<double> level{0};
+    for (int t = 1; t < 12; ++t) level.push_back(level.back() + 0.3 + normal(random));
+    const Context context = seen([&](int t) { return plate(level[std::size_t(t)]); }, 10, 0.001, 3);
+    const Forecast f = band_trend().forecast(context);
+    ASSERT_TRUE(f.trajectory.law.tabulated());
+    const double last = f.trajectory.law.nodes.back().horizon;
+    ASSERT_LT(last, 100);
+    EXPECT_NE(f.explanation.find(fmt::format("Beyond +{:.0f} the trend is held", last)),
+              std::string::npos)
+        << f.explanation;
+    EXPECT_EQ(largest_difference(f.at(last), f.at(last + 30)), 0);
+    // It is less sure of what it holds than of what it follows.
+    EXPECT_GT(f.spread.at(last + 30).common, f.spread.at(last).common);
 }
 
 TEST(BandTrend, StartsAtTheLastFrameAndMovesNothingElse) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -124,6 +125,49 @@ std::vector<LawNode> law_nodes_from(const Json& json, const fs::path& manifest) 
     return nodes;
 }
 
+void require_size(const Image<SrgbF>& image, const Image<SrgbF>& like, const fs::path& path) {
+    if (!image.same_size(like)) {
+        throw Error(ErrorCode::bad_input, "has another size than base.npy", path.string());
+    }
+}
+
+Json spread_json(const Spread& spread) {
+    if (!spread.known()) return nullptr;
+    Json nodes = Json::array();
+    for (const SpreadNode& n : spread.nodes) nodes.push_back({n.horizon, n.common, n.own});
+    return {{"common", {spread.common.r, spread.common.g, spread.common.b}}, {"nodes", nodes}};
+}
+
+/// Of forecasts written before there were any: unknown.
+void read_spread(const Json& json, const fs::path& folder, const Image<SrgbF>& like,
+                 Spread& spread) {
+    if (!json.contains("spread") || json.at("spread").is_null()) return;
+    const Json& from = json.at("spread");
+    const auto bad = [&] {
+        return Error(ErrorCode::bad_input,
+                     "has a spread that is not variances at increasing horizons",
+                     (folder / kManifest).string());
+    };
+    const auto variance = [](double v) { return std::isfinite(v) && v >= 0; };
+    const auto common = from.at("common").get<std::array<float, 3>>();
+    spread.common = {common[0], common[1], common[2]};
+    if (!std::ranges::all_of(common, variance)) throw bad();
+    for (const Json& n : from.at("nodes")) {
+        const SpreadNode node{n.at(0), n.at(1), n.at(2)};
+        const double before = spread.nodes.empty() ? 0 : spread.nodes.back().horizon;
+        if (!(node.horizon > before) || !std::isfinite(node.horizon) || !variance(node.common) ||
+            !variance(node.own))
+            throw bad();
+        spread.nodes.push_back(node);
+    }
+    spread.own = read_one(folder / "spread.npy");
+    require_size(spread.own, like, folder / "spread.npy");
+    for (const SrgbF& p : spread.own.pixels())
+        if (p.r < 0 || p.g < 0 || p.b < 0)
+            throw Error(ErrorCode::bad_input, "holds a negative variance",
+                        (folder / "spread.npy").string());
+}
+
 Json manifest_of(const SavedForecast& saved) {
     const Forecast& f = saved.forecast;
     return {{"format", kFormat},
@@ -134,6 +178,7 @@ Json manifest_of(const SavedForecast& saved) {
             {"law_context", f.trajectory.law.context},
             {"law_nodes", law_nodes_json(f.trajectory.law)},
             {"clamp", f.trajectory.clamp},
+            {"spread", spread_json(f.spread)},
             {"stack_horizons", f.stack.horizons},
             {"context_length", f.context_length},
             {"guards", guards_json(f.guards)},
@@ -155,12 +200,6 @@ void write_picture(const Forecast& forecast, double horizon, const fs::path& pat
         }
     });
     write_png(path, encoded);
-}
-
-void require_size(const Image<SrgbF>& image, const Image<SrgbF>& like, const fs::path& path) {
-    if (!image.same_size(like)) {
-        throw Error(ErrorCode::bad_input, "has another size than base.npy", path.string());
-    }
 }
 
 Mask read_mask(const fs::path& path, const Image<SrgbF>& like) {
@@ -224,6 +263,7 @@ SavedForecast saved_from(const Json& json, const fs::path& folder) {
     if (json.at("specimen").get<bool>())
         context.specimen = read_mask(folder / "specimen.png", base);
     if (json.at("clipped").get<bool>()) context.clipped = read_mask(folder / "clipped.png", base);
+    read_spread(json, folder, base, saved.forecast.spread);
     if (json.at("kind") == "frames") {
         saved.forecast.stack.base = std::move(base);
         read_stack(json, folder, saved.forecast.stack);
@@ -265,6 +305,7 @@ void write_forecast(const SavedForecast& saved, const fs::path& folder) {
         write_image(to / "base.npy", forecast.stack.base);
         write_images(to / "stack.npy", forecast.stack.frames);
     }
+    if (forecast.spread.known()) write_image(to / "spread.npy", forecast.spread.own);
     for (double horizon : saved.horizons) {
         write_picture(forecast, horizon, to / ("forecast_" + horizon_label(horizon) + ".png"));
     }

@@ -146,6 +146,34 @@ TEST_F(ForecastIo, ALawWithNodesRoundTripsAndMustIncrease) {
     EXPECT_THROW(read_forecast(folder_), Error);
 }
 
+TEST_F(ForecastIo, TheSpreadRoundTripsAndIsChecked) {
+    SavedForecast saved = example(1);
+    Spread& spread = saved.forecast.spread;
+    spread.common = {1.5f, 1, 0.5f};
+    spread.own = saved.forecast.trajectory.base.clone();
+    spread.nodes = {{1, 1e-6, 2e-6}, {2.5, 1e-5, 3e-5}};
+    write_forecast(saved, folder_);
+    const Spread read = read_forecast(folder_).forecast.spread;
+    EXPECT_EQ(read.nodes, spread.nodes);
+    EXPECT_EQ(read.common.r, 1.5f);
+    EXPECT_TRUE(same_bytes(read.own, spread.own));
+    const std::string text = read_text(folder_ / "forecast.json");
+    for (const auto& [from, to] : {std::pair{"2.5", "0.5"}, std::pair{"1.5", "-2"}}) {
+        std::string changed = text;
+        const auto at = changed.find(from);
+        ASSERT_NE(at, std::string::npos);
+        write_file(folder_ / "forecast.json", changed.replace(at, 3, to));
+        expect_bad(folder_, "forecast.json");
+    }
+    write_file(folder_ / "forecast.json", text);
+    fs::remove(folder_ / "spread.npy");
+    expect_bad(folder_, "spread.npy");
+    // A forecast that states none removes what one before it stated.
+    write_forecast(example(1), folder_);
+    EXPECT_FALSE(read_forecast(folder_).forecast.spread.known());
+    EXPECT_FALSE(fs::exists(folder_ / "spread.npy"));
+}
+
 TEST(HorizonLabel, Sorts) {
     EXPECT_EQ(horizon_label(5), "u005");
     EXPECT_EQ(horizon_label(10), "u010");

@@ -103,6 +103,26 @@ TEST(TrendModels, AnOutlyingFrameIsSetAside) {
     }
 }
 
+TEST(TrendModels, StatesTheErrorThatNoiseAndARandomWalkHave) {
+    constexpr int q = 9;
+    MatrixXd noise = 2 * MatrixXd::Identity(q, q);
+    for (int i = 0; i + 1 < q; ++i) noise(i, i + 1) = noise(i + 1, i) = -1;
+    // A frame to come differs from the mean of n by its own noise and the mean's.
+    const Trend still = TrendModels(q).trend(noise, 100);
+    EXPECT_NEAR(still.error[0], 1.1, 0.15);
+    EXPECT_NEAR(still.error[kHundredUnits], 1.1, 0.5);
+    // A walk is off by one step's variance per unit, give or take what is taken for a drift.
+    const Trend walk = TrendModels(q).trend(MatrixXd::Identity(q, q), 100);
+    EXPECT_NEAR(walk.error[0], 1, 0.2);
+    EXPECT_GT(walk.error[kTenUnits], 8);
+    EXPECT_LT(walk.error[kTenUnits], 25);
+    // A steady drift without noise is sure of the next unit and of little in a hundred.
+    const Trend steady = of_series(VectorXd::Ones(q));
+    EXPECT_LT(std::sqrt(steady.error[0]), 0.05);
+    EXPECT_GT(std::sqrt(steady.error[kHundredUnits]), 20);
+    EXPECT_LT(steady.change[0], 1.1);
+}
+
 TEST(TrendModels, TheUnitOfColorDoesNotMatter) {
     VectorXd d(4);
     d << 1, 0.8, 0.9, 0.7;

@@ -60,6 +60,8 @@ Table window_errors(const Evaluation& evaluation);
 
 /// The tables, apart from the page.
 Table error_table(const Evaluation& evaluation);
+/// How often the truth lay inside the intervals that forecasters state; no rows where none does.
+Table coverage_table(const Evaluation& evaluation);
 Table interval_table(const std::vector<DirectionVerdict>& verdicts);
 Table pair_table(const std::vector<DirectionVerdict>& verdicts);
 Table block_table(const std::vector<DirectionVerdict>& verdicts);

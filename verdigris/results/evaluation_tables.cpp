@@ -72,6 +72,48 @@ Table error_table(const Evaluation& evaluation) {
     return table;
 }
 
+Table coverage_table(const Evaluation& evaluation) {
+    Table table;
+    table.id = "coverage";
+    table.title = "Coverage of the forecasters' own intervals";
+    table.caption =
+        "Share of the truth inside the nominal 80 % and 95 % intervals that a forecaster states: "
+        "of "
+        "channels of the specimen's pixels, and of its mean color. Means over windows.";
+    table.group_header = "direction";
+    constexpr NumberFormat share{NumberStyle::percent, 0, false};
+    table.columns = {{"forecaster", "Forecaster", Align::left},
+                     {"horizon", "horizon", Align::left},
+                     {"pixels_80", "pixels, 80 %", Align::right, share},
+                     {"pixels_95", "pixels, 95 %", Align::right, share},
+                     {"mean_80", "mean color, 80 %", Align::right, share},
+                     {"mean_95", "mean color, 95 %", Align::right, share}};
+    for (const Direction& d : evaluation.directions) {
+        RowGroup group;
+        group.title = d.label();
+        for (const EntrantScores& s : d.entrants) {
+            const std::vector<double> columns[] = {known_means(s.pixels80), known_means(s.pixels95),
+                                                   known_means(s.mean80), known_means(s.mean95)};
+            if (columns[0].empty() || !std::isfinite(columns[0].front())) continue;
+            for (const int k : shown_horizons(evaluation.protocol.horizons)) {
+                TableRow row{TableCell(s.name), TableCell(fmt::format("t+{}", k))};
+                for (const auto& c : columns)
+                    row.push_back(finite_or_missing(c[std::size_t(k - 1)]));
+                group.rows.push_back(std::move(row));
+            }
+            TableRow row{TableCell(s.name), TableCell("all")};
+            for (const auto& c : columns) {
+                double sum = 0;
+                for (const double v : c) sum += v;
+                row.push_back(finite_or_missing(sum / double(c.size())));
+            }
+            group.rows.push_back(std::move(row));
+        }
+        if (!group.rows.empty()) table.groups.push_back(std::move(group));
+    }
+    return table;
+}
+
 Table interval_table(const std::vector<DirectionVerdict>& list) {
     Table table;
     table.id = "intervals";

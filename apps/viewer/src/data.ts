@@ -24,6 +24,8 @@ export interface MaterialConstants {
 export interface ViewerDocument {
   format: string; title: string; version: string; width: number; height: number;
   context: number; units_observed: number; horizons: number[];
+  /** Half widths of nominal intervals, encoded sRGB in 0..1; null or absent: none is stated. */
+  uncertainty?: { horizon: number; mean_80: number; mean_95: number; pixel_80: number; pixel_95: number }[] | null;
   forecaster: { name: string; explanation: string };
   guards: Guard[]; origins: MapOrigin[];
   trajectory: LawDocument | FramesDocument;

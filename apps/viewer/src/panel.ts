@@ -21,6 +21,17 @@ export function fillPanel(doc: ViewerDocument): void {
   add(panel, "p", doc.forecaster.explanation);
   add(panel, "p", `${doc.forecaster.name}; its context is the last ${doc.context} observed frames, one unit apart.`, "quiet");
 
+  if (doc.uncertainty?.length) {
+    add(panel, "h2", "How sure");
+    add(panel, "p", "How far off the forecast may be, in codes of 255, nominally 80 (95) times in 100:");
+    const rows = add(panel, "dl", "", "sure");
+    const codes = (v: number) => (255 * v < 9.95 ? (255 * v).toFixed(1) : (255 * v).toFixed(0));
+    for (const u of doc.uncertainty) {
+      add(rows, "dt", `+${u.horizon}`);
+      add(rows, "dd", `mean color ${codes(u.mean_80)} (${codes(u.mean_95)}), a pixel ${codes(u.pixel_80)} (${codes(u.pixel_95)})`);
+    }
+  }
+
   if (doc.guards.length) add(panel, "h2", "Read this first");
   const list = doc.guards.length ? add(panel, "ul", "", "guards") : null;
   const weight: Record<string, number> = { refusal: 0, caution: 1, info: 2 };
