@@ -12,6 +12,7 @@
 #include <random>
 
 #include "verdigris/forecast/affine.h"
+#include "verdigris/forecast/band_trend.h"
 #include "verdigris/forecast/choose.h"
 #include "verdigris/pixels/parallel_rows.h"
 
@@ -157,6 +158,28 @@ void automatic_choice(benchmark::State& state) {
         benchmark::DoNotOptimize(automatic().forecast(context).trajectory.base.row(0));
 }
 BENCHMARK(automatic_choice)->Arg(128)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+/// The forecast and ten horizons of it, on so many threads; without trying itself on the context.
+void band_trend_and_ten_horizons(benchmark::State& state) {
+    const Context context = recording(int(state.range(0)), 10);
+    set_thread_count(int(state.range(1)));
+    const Forecaster forecaster = band_trend({.explain = false});
+    forecaster.forecast(context);  // makes the grid of models, once
+    Image<SrgbF> out;
+    for (auto _ : state) {
+        const Forecast forecast = forecaster.forecast(context);
+        for (int h = 1; h <= 10; ++h) evaluate_trajectory(forecast.trajectory, h, out);
+        benchmark::DoNotOptimize(out.row(0));
+    }
+    set_thread_count(0);
+}
+BENCHMARK(band_trend_and_ten_horizons)
+    ->Args({128, 1})
+    ->Args({1024, 1})
+    ->Args({1024, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 void one_horizon(benchmark::State& state) {
     const Forecast forecast = affinergb().forecast(recording(int(state.range(0)), 2));

@@ -160,11 +160,12 @@ MatrixXd gram_of(const Increments& increments) {
                 for (Eigen::Index at = 0; at < values.cols(); ++at)
                     values(i, at) = double(from[at]);
             }
-            g.noalias() += values * values.transpose();
+            g.selfadjointView<Eigen::Lower>().rankUpdate(values);
         }
     });
     MatrixXd gram = MatrixXd::Zero(q, q);
     for (const MatrixXd& g : parts) gram += g;
+    gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
     return gram / (3 * double(size));
 }
 

@@ -26,6 +26,7 @@ constexpr double kFloor = 1e-4;          // variance that no model explains, of 
 constexpr double kNothingButNoise = .1;  // prior of frames that are one level and noise
 constexpr double kWalk = .1;             // and of a level that walks at random
 constexpr double kEventPrior = .02;      // of a step or an outlier, at each place it can have
+constexpr double kNegligible = 1e-9;     // weight of a model
 constexpr double kEventSize[] = {10, 1e3, 1e5};  // variance, of V
 
 double covariance_at(bool bending, double rho, double lag) {
@@ -122,9 +123,12 @@ void TrendModels::add(const MatrixXd& covariance, const MatrixXd& with_future,
     m.log_prior = std::log(prior);
     m.at_events.resize(increments_, Eigen::Index(events_.size()));
     m.of_events.resize(Eigen::Index(events_.size()));
+    m.log_denominators.resize(events_.size());
     for (std::size_t e = 0; e < events_.size(); ++e) {
         m.at_events.col(Eigen::Index(e)) = m.precision * events_[e].direction;
         m.of_events[Eigen::Index(e)] = events_[e].direction.dot(m.at_events.col(Eigen::Index(e)));
+        for (std::size_t i = 0; i < std::size(kEventSize); ++i)
+            m.log_denominators[e][i] = std::log1p(kEventSize[i] * m.of_events[Eigen::Index(e)]);
     }
     models_.push_back(std::move(m));
 }
@@ -133,23 +137,29 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     const double q = increments_, scale = std::max(gram.trace() / q, 1e-30);
     const MatrixXd g = gram / scale;  // no underflow, whatever the unit
     const std::size_t sizes = std::size(kEventSize), events = events_.size();
+    const double log_event = std::log(kEventPrior / double(sizes));
     // Of a model, and of it with each event at each size (Sherman and Morrison 1950).
-    std::vector<double> evidence;
+    std::vector<double> evidence, seen_by_event;
     evidence.reserve(models_.size() * (1 + events * sizes));
+    seen_by_event.reserve(models_.size() * events);
     const auto log_evidence = [&](double variance, double log_determinant) {
         return -0.5 * count * (q * std::log(std::max(variance, 1e-12)) + log_determinant);
     };
+    MatrixXd at_gram(increments_, Eigen::Index(events));
     for (const Model& m : models_) {
         const double all = (m.precision.array() * g.array()).sum();
         evidence.push_back(log_evidence(all / q, m.log_determinant) + m.log_prior);
+        at_gram.noalias() = g * m.at_events;
         for (std::size_t e = 0; e < events; ++e) {
-            const auto at = m.at_events.col(Eigen::Index(e));
-            const double seen = at.dot(g * at), of = m.of_events[Eigen::Index(e)];
-            for (const double tau : kEventSize) {
-                const double denominator = 1 + tau * of;
+            const auto column = Eigen::Index(e);
+            const double seen = m.at_events.col(column).dot(at_gram.col(column));
+            const double of = m.of_events[column];
+            seen_by_event.push_back(seen);
+            for (std::size_t i = 0; i < sizes; ++i) {
+                const double tau = kEventSize[i], denominator = 1 + tau * of;
                 evidence.push_back(log_evidence((all - tau * seen / denominator) / q,
-                                                m.log_determinant + std::log(denominator)) +
-                                   m.log_prior + std::log(kEventPrior / double(sizes)));
+                                                m.log_determinant + m.log_denominators[e][i]) +
+                                   m.log_prior + log_event);
             }
         }
     }
@@ -165,27 +175,34 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     out.weights = MatrixXd::Zero(units, increments_);
     VectorXd square = VectorXd::Zero(units), left = VectorXd::Zero(units);
     std::vector<double> of_event(events, 0);
-    std::size_t k = 0;
+    std::size_t k = 0, k_seen = 0;
     for (const Model& m : models_) {
+        const auto from = evidence.begin() + std::ptrdiff_t(k);
+        const auto to = from + std::ptrdiff_t(1 + events * sizes);
+        if (std::all_of(from, to, [&](double e) { return e < kNegligible * total; })) {
+            k += 1 + events * sizes;
+            k_seen += events;
+            continue;
+        }
         const double all = (m.precision.array() * g.array()).sum();
         const MatrixXd with_gram = m.weights * g;
         const VectorXd plain = with_gram.cwiseProduct(m.weights).rowwise().sum();
         double of_model = evidence[k++] / total;
-        if (of_model > 1e-9) {
+        if (of_model > kNegligible) {
             square += of_model * plain;
             left += of_model * all / q * m.unexplained;
         }
         for (std::size_t e = 0; e < events; ++e) {
             const auto column = Eigen::Index(e);
+            const double seen = seen_by_event[k_seen++];
             for (const double tau : kEventSize) {
                 const double p = evidence[k++] / total;
-                if (p < 1e-9) continue;
+                if (p < kNegligible) continue;
                 of_model += p;
                 of_event[e] += p;
                 const auto at = m.at_events.col(column);
                 const VectorXd toward = m.weights * events_[e].direction;
                 const double share = tau / (1 + tau * m.of_events[column]);
-                const double seen = at.dot(g * at);
                 out.weights -= (p * share) * toward * at.transpose();
                 square += p * (plain - 2 * share * toward.cwiseProduct(with_gram * at) +
                                share * share * seen * toward.cwiseAbs2());

@@ -52,7 +52,8 @@ class TrendModels {
         double log_determinant = 0;
         double log_prior = 0;
         Eigen::MatrixXd at_events;  ///< precision * event, a column per event
-        Eigen::VectorXd of_events;  ///< event' * precision * event
+        std::vector<std::array<double, 3>> log_denominators;  ///< per event and size of it
+        Eigen::VectorXd of_events;                            ///< event' * precision * event
     };
     struct Event {
         Eigen::VectorXd direction;
