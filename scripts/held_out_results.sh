@@ -15,13 +15,13 @@ for preset in chamber air; do
     "$verdigris" simulate --preset "$preset" --seed 1 -o "$out/$preset.mkv" --quiet
 done
 "$verdigris" evaluate "$out/chamber.mkv" "$out/air.mkv" -o "$out/simulated" \
-  --forecasters persistence,affinergb,affinergb-ridge,auto,bandtrend
+  --forecasters persistence,affinergb,affinergb-ridge,backtest,auto
 "$verdigris" audit "$out/simulated"
 if [ -d "$real/copper_patinating" ]; then
   "$verdigris" evaluate "$real/copper_patinating" -o "$out/copper" --single --stride 3 \
-    --forecasters persistence,affinergb,affinergb-ridge,auto,bandtrend
+    --forecasters persistence,affinergb,affinergb-ridge,backtest,auto
   "$verdigris" evaluate "$real/copper_patinating" -o "$out/copper-10" --single --stride 3 \
-    --context 10 --forecasters persistence,affinergb,auto,bandtrend
+    --context 10 --forecasters persistence,affinergb,backtest,auto
   "$verdigris" evaluate "$real/clay_solidifying" -o "$out/clay" --single --stride 3 \
-    --forecasters persistence,affinergb,auto,bandtrend
+    --forecasters persistence,affinergb,backtest,auto
 fi

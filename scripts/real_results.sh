@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What `auto` decides on the real recordings, as a table for docs/RESULTS.md:
+# What `auto` says on the real recordings, as a table for docs/RESULTS.md:
 #   scripts/real_results.sh FOLDER_OF_RECORDINGS
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -7,7 +7,7 @@ verdigris=${VERDIGRIS:-build/release/bin/verdigris}
 [ -x "$verdigris" ] || scripts/build.sh release
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-echo "| recording | context | what the back-test said |"
+echo "| recording | context | what it said of itself |"
 echo "|---|---|---|"
 for recording in "$1"/*/; do
   name=$(basename "$recording")

@@ -196,7 +196,7 @@ Report evaluation_report(const Evaluation& evaluation, const std::vector<Directi
     report.sections.push_back({"by-forecaster", "Errors", {error_table(evaluation)}});
     if (Table coverage = coverage_table(evaluation); !coverage.groups.empty())
         report.sections.push_back(
-            {"coverage", "Intervals of the forecasters", {std::move(coverage)}});
+            {"own-intervals", "Intervals of the forecasters", {std::move(coverage)}});
     if (any_judged) {
         ReportSection sure{"how-sure", "How sure", {interval_table(list), gain_figure(list)}};
         const bool any_pair = std::any_of(

@@ -50,8 +50,8 @@ std::vector<DirectionVerdict> verdicts(const Evaluation& evaluation,
 /// none was judged but persistence, how large an error there is to improve on.
 std::vector<std::string> verdict_sentences(const std::vector<DirectionVerdict>& verdicts);
 
-/// Sections: verdict, audit, errors, intervals and blocks (of forecasters besides persistence),
-/// horizons, protocol.
+/// Sections: verdict, audit, errors, the forecasters' own intervals, intervals and blocks (of
+/// forecasters besides persistence), horizons, protocol.
 Report evaluation_report(const Evaluation& evaluation,
                          const std::vector<DirectionVerdict>& verdicts);
 
