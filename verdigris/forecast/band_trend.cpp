@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -137,19 +138,11 @@ std::string evidence(const Context& context, TrendModelsCache& models) {
     const double ours = error_on(forecast(before, false, models), context, seen, back, moving);
     if (!(still > 0)) return "";
     const double gain = 1 - ours / still;
-    const std::string frames = back == 1 ? "frame" : fmt::format("{} frames", back);
-    if (gain > 0.005)
-        return fmt::format(
-            "Held back, the last {} were predicted {:.0f} % better than by holding "
-            "still.",
-            frames, 100 * gain);
-    if (gain < -0.005)
-        return fmt::format(
-            "Held back, the last {} were predicted {:.0f} % worse than by holding "
-            "still.",
-            frames, -100 * gain);
-    return fmt::format("Held back, the last {} were predicted as well as by holding still.",
-                       frames);
+    const std::string frames = back == 1 ? "frame was" : fmt::format("{} frames were", back);
+    if (std::abs(gain) <= 0.005)
+        return fmt::format("Held back, the last {} predicted as well as by holding still.", frames);
+    return fmt::format("Held back, the last {} predicted {:.0f} % {} than by holding still.",
+                       frames, 100 * std::abs(gain), gain > 0 ? "better" : "worse");
 }
 
 }  // namespace
