@@ -133,7 +133,7 @@ void add_options(CLI::App& command, Arguments& a) {
                     "ahead), or frame (each frame its own largest change)")
         ->check(CLI::IsMember({"truth", "frame"}))
         ->capture_default_str();
-    command.add_flag("--whole", a.options.whole, "The backdrop around the specimen too, as metal");
+    command.add_flag("--whole", a.options.whole, "The backdrop around the specimen as well");
     command.add_option("--lpips-weights", a.lpips_weights,
                        "Weights of LPIPS (docs/models/metrics.md says how to make the file)");
 }

@@ -16,7 +16,7 @@ for f in SHA256SUMS report.html protocol.toml record.json materials.json renders
   tables/materials-limits.csv tables/materials-blocks.csv tables/windows_materials.csv; do
   [ -s "$scratch/jm/$f" ] || fail "$f is missing"
 done
-! command -v gnuplot >/dev/null || [ -s "$scratch/jm/figures/materials.svg" ] || fail "no figure"
+! command -v gnuplot >/dev/null || [ -s "$scratch/jm/figures/materials-flip.svg" ] || fail "no figure"
 expect_no_partials "$scratch/jm"
 (cd "$scratch/jm" && sha256sum --check --quiet --strict SHA256SUMS) || fail "sha256sum disagrees with SHA256SUMS"
 head -c 8 "$scratch/jm/renders/u020.png" | grep -q PNG || fail "a sheet is no PNG"

@@ -22,7 +22,7 @@ struct MaterialJudgeOptions {
     ViewOptions view;
     CoverageScale scale = CoverageScale::truth;
     double pixels_per_degree = kFlipPixelsPerDegree;
-    /// The backdrop too, as metal (as the paper); else the largest rectangle of specimen.
+    /// The whole frame, its backdrop too (no metal); else the largest rectangle of specimen.
     bool whole = false;
     /// LPIPS of truth and forecast, called from one thread; empty: there is none, and `no_lpips`
     /// says why.

@@ -49,7 +49,7 @@ Report material_report(const MaterialJudgment& judgment,
     for (const Status& s : judgment.evaluation.recording_notes) leaks.blocks.emplace_back(s);
     report.sections.push_back(std::move(leaks));
 
-    report.sections.push_back({"materials",
+    report.sections.push_back({"by-forecaster",
                                "Materials",
                                {material_table(judgment, list), material_flip_figure(judgment),
                                 Paragraph{"renders/ has one window to look at: forecast, truth and "

@@ -212,7 +212,7 @@ Table material_windows(const MaterialJudgment& judgment) {
 
 Figure material_flip_figure(const MaterialJudgment& judgment) {
     Figure figure;
-    figure.id = "materials";
+    figure.id = "materials-flip";
     figure.title = "FLIP by horizon";
     figure.caption =
         "Mean FLIP between the pictures of forecast and true materials. The static control in "

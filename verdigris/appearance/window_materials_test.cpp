@@ -53,12 +53,11 @@ TEST(WindowMaterials, OneScaleForAWindowOrOneForEachFrame) {
     one_window([](const ScoredWindow& w) {
         const WindowMaterials fixed(w, 12, CoverageScale::truth);
         const WindowMaterials own(w, 12, CoverageScale::frame);
-        // Four units on it has moved half as far as at ten: half covered by the window's scale,
-        // fully by its own.
-        const float half = fixed.material(w.truth(4), 4).coverage(18, 8);
-        EXPECT_GT(half, 0.2f);
-        EXPECT_LT(half, 0.75f);
-        EXPECT_GT(own.material(w.truth(4), 4).coverage(18, 8), 0.9f);
+        // The median of the context is two units old, and the dead-zone what was moved since. Four
+        // units on that leaves 4 of the 12 units that are full patina by the window's scale, and of
+        // 6 by the frame's own; then Eq. (2)'s exponent.
+        EXPECT_NEAR(fixed.material(w.truth(4), 4).coverage(18, 8), std::pow(4.0 / 12, 0.85), 0.03);
+        EXPECT_NEAR(own.material(w.truth(4), 4).coverage(18, 8), std::pow(4.0 / 6, 0.85), 0.03);
         EXPECT_EQ(fixed.recipe().reference_horizon, 10);
     });
     one_window([](const ScoredWindow& w) {
