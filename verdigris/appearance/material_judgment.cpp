@@ -20,6 +20,7 @@ namespace verdigris {
 namespace {
 
 constexpr int kMostHorizon = 1000;  // as the protocol's
+constexpr std::size_t kControls = MaterialDirection::kControls, kFinish = kControls - 1;
 
 bool same(const Image<SrgbF>& a, const Image<SrgbF>& b) {
     return a.same_size(b) && std::ranges::equal(a.pixels(), b.pixels());
@@ -76,15 +77,14 @@ class DirectionJudge {
         const int columns = int(options.horizons.size());
         const ErrorTable none(0, columns);
         out_.truth_moved = none;
-        for (std::size_t i = 0; i <= w.forecasts.size(); ++i) {
+        for (std::size_t i = 0; i < kControls + w.forecasts.size() - 1; ++i) {
             MaterialScores s;
-            if (i == 0) {
-                s.name = w.direction.persistence().name;
-            } else if (i == 1) {
-                s.name = "canvas";
+            if (i < kControls) {
+                const char* kNames[] = {"persistence", "canvas", "true-finish"};
+                s.name = kNames[i];
             } else {
-                s.name = w.direction.entrants[i - 1].name;
-                s.trained = w.direction.entrants[i - 1].trained;
+                s.name = w.direction.entrants[i - kControls + 1].name;
+                s.trained = w.direction.entrants[i - kControls + 1].trained;
             }
             for (ErrorTable* t : {&s.flip, &s.ssim, &s.delta_e, &s.error, &s.moved, &s.agreement,
                                   &s.outside_pixels, &s.outside_channels})
@@ -120,10 +120,11 @@ class DirectionJudge {
         const int horizon = options_.horizons[h];
         const Image<SrgbF>& truth = w.truth(horizon);
         const std::size_t rows = out_.rows.size();
-        // Frames: persistence, canvas, the entrants; then the truth.
+        // Frames: those of the controls, of the entrants; then the truth.
         std::vector<Image<SrgbF>> frames;
         frames.push_back(last.clone());
         frames.push_back(materials.canvas().clone());
+        frames.push_back(last.clone());
         for (std::size_t i = 1; i < w.forecasts.size(); ++i)
             frames.push_back(w.forecasts[i].at(horizon));
         frames.push_back(truth.clone());
@@ -131,16 +132,17 @@ class DirectionJudge {
         std::vector<Image<SrgbF>> pictures(rows + 1);
         std::vector<std::size_t> to_render;
         for (std::size_t i = 0; i <= rows; ++i) {
-            const bool control = i < still.size();
-            if (control && !still[i].empty()) {
+            if (i < still.size() && !still[i].empty()) {
                 pictures[i] = still[i].clone();
-            } else if (control || i == rows || !same(frames[i], last)) {
+            } else if (i < kControls || i == rows || !same(frames[i], last)) {
                 to_render.push_back(i);
             }
         }
         parallel_for(int(to_render.size()), [&](int k) {
             const std::size_t i = to_render[std::size_t(k)];
-            pictures[i] = view_->picture(materials.material(frames[i], horizon));
+            Material m = materials.material(i == kFinish ? truth : frames[i], horizon);
+            if (i == kFinish) m.albedo = last.clone();
+            pictures[i] = view_->picture(m);
         });
         for (std::size_t i = 0; i < still.size(); ++i)
             if (still[i].empty()) still[i] = pictures[i].clone();
@@ -159,10 +161,11 @@ class DirectionJudge {
                            ssim(real, pictures[i]), color_difference(real, pictures[i]).mean};
         });
         for (std::size_t i = 0; i < rows; ++i) {
-            const Forecast& forecast = w.forecasts[i < 2 ? 0 : i - 1];
             const FrameMotion m = frame_motion(frames[i], truth, last, out_.shown);
             const FrameMotion free =
-                i < 2 ? m : frame_motion(unclamped(forecast, horizon), truth, last, out_.shown);
+                i < kControls ? m
+                              : frame_motion(unclamped(w.forecasts[i - kControls + 1], horizon),
+                                             truth, last, out_.shown);
             MaterialScores& s = out_.rows[i];
             put(s.flip, h, compared[i].flip.mean);
             put(s.ssim, h, compared[i].ssim);

@@ -62,8 +62,11 @@ struct MaterialDirection {
     std::string held_out, label;
     std::vector<int> starts;  ///< of the scored windows
     Rect shown;               ///< of the frame
-    /// "persistence", which is the static control; "canvas", the median of the context, which is
-    /// the static control as the paper words it; then the entrants.
+    /// kControls of them: "persistence", which is the static control; "canvas", the median of the
+    /// context, which is the static control as the paper words it; "true-finish", no forecast but
+    /// the color of the last frame on the true frame's other maps: how much of the control's FLIP
+    /// is its color. Then the entrants.
+    static constexpr std::size_t kControls = 3;
     std::vector<MaterialScores> rows;
     ErrorTable truth_moved;  ///< mean |truth - last observed|
     /// FLIP of two pictures of one material whose rays differ: more than what noise adds here.

@@ -42,12 +42,13 @@ TEST(JudgeMaterials, KnownAnswers) {
     const MaterialJudgment j = judged(list, small_options());
     ASSERT_EQ(j.directions.size(), 2u);
     for (const MaterialDirection& d : j.directions) {
-        ASSERT_EQ(d.rows.size(), 5u);
+        ASSERT_EQ(d.rows.size(), 6u);
         EXPECT_EQ(d.rows[0].name, "persistence");
         EXPECT_EQ(d.rows[1].name, "canvas");
-        EXPECT_EQ(d.rows[2].name, "still");
-        const MaterialScores &control = d.rows[0], &canvas = d.rows[1], &still = d.rows[2],
-                             &perfect = d.rows[3], &mirrored = d.rows[4];
+        EXPECT_EQ(d.rows[2].name, "true-finish");
+        EXPECT_EQ(d.rows[3].name, "still");
+        const MaterialScores &control = d.rows[0], &canvas = d.rows[1], &finish = d.rows[2],
+                             &still = d.rows[3], &perfect = d.rows[4], &mirrored = d.rows[5];
         ASSERT_EQ(control.flip.windows, 3);
         for (int w = 0; w < 3; ++w) {
             for (int h = 0; h < 2; ++h) {
@@ -62,6 +63,10 @@ TEST(JudgeMaterials, KnownAnswers) {
                 EXPECT_TRUE(std::isnan(control.agreement.at(w, h)));
                 EXPECT_NEAR(mirrored.moved.at(w, h), d.truth_moved.at(w, h), 1e-6);
                 EXPECT_NEAR(mirrored.error.at(w, h), 4 * control.error.at(w, h), 1e-6);
+                // Only its color is wrong.
+                EXPECT_GT(finish.flip.at(w, h), 0);
+                EXPECT_LT(finish.flip.at(w, h), control.flip.at(w, h));
+                EXPECT_EQ(finish.error.at(w, h), control.error.at(w, h));
                 // The canvas is two units older than the last frame: farther from the future.
                 EXPECT_GT(canvas.error.at(w, h), control.error.at(w, h));
             }
@@ -72,24 +77,24 @@ TEST(JudgeMaterials, KnownAnswers) {
     const auto list_of = material_verdicts(j);
     for (const MaterialDirectionVerdict& v : list_of) {
         for (std::size_t h = 0; h < 2; ++h) {
-            EXPECT_EQ(v.rows[1][h].gain.value, 0);  // still
-            EXPECT_EQ(v.rows[2][h].gain.value, 1);  // perfect: 100 %
+            EXPECT_EQ(v.rows[2][h].gain.value, 0);  // still
+            EXPECT_EQ(v.rows[3][h].gain.value, 1);  // perfect: 100 %
         }
-        EXPECT_NE(v.sentences[1].find("still look no different at +2"), std::string::npos)
-            << v.sentences[1];
-        EXPECT_NE(v.sentences[2].find("perfect look closer at +2 (FLIP 0.0000 against"),
+        EXPECT_NE(v.sentences[0].find("still look no different at +2"), std::string::npos)
+            << v.sentences[0];
+        EXPECT_NE(v.sentences[1].find("perfect look closer at +2 (FLIP 0.0000 against"),
                   std::string::npos)
-            << v.sentences[2];
+            << v.sentences[1];
     }
 }
 
-TEST(JudgeMaterials, AMirroredForecastLooksFartherOffThanHoldingStill) {
+TEST(JudgeMaterials, AMirroredForecastIsToldApartByItsColorOnly) {
     // By the coverage alone it would be perfect: as far from the clean state. The color is not.
     const MaterialJudgment j = judged(testing::two_agings(), small_options());
     for (const MaterialDirection& d : j.directions) {
         const std::size_t far = 1;
-        EXPECT_GT(horizon_means(d.rows[4].delta_e)[far], horizon_means(d.rows[3].delta_e)[far] + 1);
-        EXPECT_GT(horizon_means(d.rows[4].flip)[far], 0.02);
+        EXPECT_GT(horizon_means(d.rows[5].delta_e)[far], horizon_means(d.rows[4].delta_e)[far] + 1);
+        EXPECT_GT(horizon_means(d.rows[5].flip)[far], 0.02);
     }
 }
 
@@ -102,7 +107,7 @@ TEST(JudgeMaterials, SameBytesAtAnyThreadCount) {
     set_thread_count(1);
     const auto one = numbers();
     set_thread_count(0);
-    EXPECT_EQ(many.size(), 2u * 5 * 3 * 2);
+    EXPECT_EQ(many.size(), 2u * 6 * 3 * 2);
     EXPECT_EQ(many, one);
 }
 
@@ -134,8 +139,8 @@ TEST(JudgeMaterials, LpipsIsAskedForEveryPictureOrMissing) {
         return 0.25;
     };
     const MaterialJudgment j = judged(testing::two_agings(), options);
-    EXPECT_EQ(asked, 2 * 3 * 5);
-    EXPECT_EQ(j.directions[0].rows[4].lpips.at(2, 0), 0.25);
+    EXPECT_EQ(asked, 2 * 3 * 6);
+    EXPECT_EQ(j.directions[0].rows[5].lpips.at(2, 0), 0.25);
 }
 
 TEST(JudgeMaterials, RefusesInASentence) {
@@ -161,7 +166,7 @@ TEST(JudgeMaterials, RefusesInASentence) {
 TEST(JudgeMaterials, TheSheetHasEveryForecasterBesideTheTruth) {
     const MaterialJudgment j = judged(testing::two_agings(), small_options());
     const Image<SrgbU8> sheet = draw_material_contact(j, 1);
-    // Two directions of three tiles, five rows.
+    // Two directions of three tiles, six rows.
     EXPECT_EQ(sheet.width(), 2 * 28 + 2 * (3 * 48 + 16) + 40);
     const MaterialExample& e = j.directions[0].examples[1];
     const auto holds = [&](const Image<SrgbU8>& tile, int x0, int y0) {
@@ -172,8 +177,8 @@ TEST(JudgeMaterials, TheSheetHasEveryForecasterBesideTheTruth) {
     };
     EXPECT_TRUE(holds(e.rows[0].picture, 28, 118));
     EXPECT_TRUE(holds(e.truth, 28 + 56, 118));
-    EXPECT_TRUE(holds(e.rows[3].picture, 28, 118 + 3 * 82));
-    EXPECT_TRUE(holds(e.truth, 28, 118 + 3 * 82));  // of the perfect one they are the same
+    EXPECT_TRUE(holds(e.rows[4].picture, 28, 118 + 4 * 82));
+    EXPECT_TRUE(holds(e.truth, 28, 118 + 4 * 82));  // of the perfect one they are the same
     EXPECT_THROW(draw_material_contact(j, 2), Error);
 }
 

@@ -36,6 +36,9 @@ struct MaterialDirectionVerdict {
     std::vector<std::string> sentences;
 };
 
+/// Mean over the windows that have a number at this horizon; NaN if none has.
+double mean_where_finite(const ErrorTable& table, std::size_t horizon);
+
 /// `judgment` must outlive the result.
 std::vector<MaterialDirectionVerdict> material_verdicts(const MaterialJudgment& judgment);
 

@@ -33,7 +33,8 @@ MaterialJudgment made(const std::vector<std::vector<double>>& control,
         shares(control.size(), {0, outside});
     for (const auto& [name, flips] :
          {std::pair("persistence", control), std::pair("canvas", control),
-          std::pair("affinergb", free), std::pair("affinergb-clamped", clamped)}) {
+          std::pair("true-finish", control), std::pair("affinergb", free),
+          std::pair("affinergb-clamped", clamped)}) {
         MaterialScores s;
         s.name = name;
         s.flip = table(flips);
@@ -56,12 +57,12 @@ TEST(MaterialReport, NumbersAndWordsFollowFromTheFlips) {
     const MaterialJudgment j = crossing(0);
     const auto list = material_verdicts(j);
     ASSERT_EQ(list.size(), 1u);
-    EXPECT_NEAR(list[0].rows[1][0].gain.value, 0.5, 1e-12);
-    EXPECT_NEAR(list[0].rows[1][1].gain.value, -0.5, 1e-12);
+    EXPECT_NEAR(list[0].rows[2][0].gain.value, 0.5, 1e-12);
+    EXPECT_NEAR(list[0].rows[2][1].gain.value, -0.5, 1e-12);
     // Six windows 90 samples apart: six blocks at +5 (span 90), one at +50 (span 540).
-    EXPECT_EQ(list[0].rows[1][0].gain.blocks.size(), 6u);
-    EXPECT_EQ(list[0].rows[1][1].gain.blocks.size(), 1u);
-    const std::string& s = list[0].sentences[1];
+    EXPECT_EQ(list[0].rows[2][0].gain.blocks.size(), 6u);
+    EXPECT_EQ(list[0].rows[2][1].gain.blocks.size(), 1u);
+    const std::string& s = list[0].sentences[0];
     EXPECT_NE(s.find("the materials of affinergb look closer at +5 (FLIP 0.0500 against 0.1000, "
                      "+50.0 %); farther off at +50 (FLIP 0.3000 against 0.2000, -50.0 %)."),
               std::string::npos)
@@ -73,7 +74,7 @@ TEST(MaterialReport, NumbersAndWordsFollowFromTheFlips) {
     EXPECT_NE(s.find("crosses over between +5 and +50"), std::string::npos) << s;
     EXPECT_NE(s.find("so leaving the gamut is not why"), std::string::npos) << s;
     const auto gamut = crossing(0.08);  // the verdicts point into it
-    const std::string out = material_verdicts(gamut)[0].sentences[1];
+    const std::string out = material_verdicts(gamut)[0].sentences[0];
     EXPECT_NE(out.find("8.00 % of their channels lie outside [0, 1] before any clamp."),
               std::string::npos)
         << out;
@@ -98,15 +99,17 @@ TEST(MaterialReport, TablesFiguresAndPageHold) {
     EXPECT_EQ(table.columns[3].id, "flip_u50");
     EXPECT_TRUE(table.groups[0].rows[0][3].is_best());   // the static control at +50
     EXPECT_FALSE(table.groups[0].rows[0][1].is_best());  // affinergb at +5
-    EXPECT_TRUE(table.groups[0].rows[2][2].bounds().has_value());
-    EXPECT_FALSE(table.groups[0].rows[2][4].bounds().has_value());  // one block: no interval
+    EXPECT_FALSE(
+        table.groups[0].rows[2][3].is_best());  // true-finish ties with it and is no forecast
+    EXPECT_TRUE(table.groups[0].rows[3][2].bounds().has_value());
+    EXPECT_FALSE(table.groups[0].rows[3][4].bounds().has_value());  // one block: no interval
     const Table measures = material_measure_table(j, list);
     check_table(measures);
-    EXPECT_EQ(measures.groups[0].rows.size(), 8u);
+    EXPECT_EQ(measures.groups[0].rows.size(), 10u);
     EXPECT_EQ(measures.groups[0].rows[0][5].kind(), TableCell::Kind::missing);  // LPIPS: n/a
     EXPECT_EQ(measures.note, "LPIPS: this build has none");
     check_table(material_windows(j));
-    EXPECT_EQ(material_windows(j).groups[0].rows.size(), 6u * 2 * 4);
+    EXPECT_EQ(material_windows(j).groups[0].rows.size(), 6u * 2 * 5);
     const Report report = material_report(j, list);
     check_report(report);
     EXPECT_NE(page_html(report, {}).find("Do limits on the color help?"), std::string::npos);

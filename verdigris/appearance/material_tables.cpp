@@ -2,7 +2,9 @@
 // The tables and figures of judged materials.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "verdigris/appearance/material_report.h"
 #include "verdigris/results/cells.h"
@@ -33,7 +35,8 @@ Table material_table(const MaterialJudgment& judgment,
         "true future frame's, {:.2f} pixels per degree, at horizons in units; its gain over the "
         "static control, a ratio of means, with the nominal 95 % interval of non-overlapping "
         "blocks where there are {} or more. persistence: the last observed frame, the static "
-        "control; canvas: the median of the context.",
+        "control; canvas: the median of the context; true-finish: no forecast, but the last "
+        "frame's color on the true frame's roughness, metallic and normal.",
         judgment.options.pixels_per_degree, kFewBlocks);
     table.group_header = "direction";
     table.columns = {{"forecaster", "Forecaster", Align::left}};
@@ -57,8 +60,18 @@ Table material_table(const MaterialJudgment& judgment,
         }
         table.groups.push_back(std::move(group));
     }
-    for (const int horizon : judgment.options.horizons)
-        mark_best(table, column_id("flip", horizon), Better::lower);
+    // The best forecast: true-finish is none.
+    constexpr std::size_t kFinish = MaterialDirection::kControls - 1;
+    for (RowGroup& group : table.groups) {
+        for (std::size_t column = 1; column < table.columns.size(); column += 2) {
+            double best = std::numeric_limits<double>::infinity();
+            for (std::size_t i = 0; i < group.rows.size(); ++i)
+                if (i != kFinish) best = std::min(best, group.rows[i][column].value());
+            for (std::size_t i = 0; i < group.rows.size(); ++i)
+                group.rows[i][column].set_best(i != kFinish &&
+                                               group.rows[i][column].value() == best);
+        }
+    }
     return table;
 }
 
@@ -93,12 +106,12 @@ Table material_measure_table(const MaterialJudgment& judgment,
         for (const MaterialScores& s : d.rows) {
             for (std::size_t h = 0; h < judgment.options.horizons.size(); ++h) {
                 const double went = horizon_means(s.moved)[h] / horizon_means(d.truth_moved)[h];
-                group.rows.push_back({TableCell(s.name), TableCell(judgment.options.horizons[h]),
-                                      mean_cell(s.flip, h), mean_cell(s.ssim, h),
-                                      mean_cell(s.delta_e, h), mean_cell(s.lpips, h),
-                                      mean_cell(s.error, h), finite_or_missing(went),
-                                      mean_cell(s.agreement, h), mean_cell(s.outside_pixels, h),
-                                      mean_cell(s.outside_channels, h)});
+                group.rows.push_back(
+                    {TableCell(s.name), TableCell(judgment.options.horizons[h]),
+                     mean_cell(s.flip, h), mean_cell(s.ssim, h), mean_cell(s.delta_e, h),
+                     mean_cell(s.lpips, h), mean_cell(s.error, h), finite_or_missing(went),
+                     finite_or_missing(mean_where_finite(s.agreement, h)),
+                     mean_cell(s.outside_pixels, h), mean_cell(s.outside_channels, h)});
             }
         }
         table.groups.push_back(std::move(group));

@@ -44,6 +44,22 @@ std::string looks_sentence(const MaterialJudgment& j, const MaterialDirection& d
                        name, fmt::join(parts, "; "));
 }
 
+/// Where the squared error of the frames says the opposite.
+std::string frames_sentence(const MaterialJudgment& j, const MaterialDirection& d,
+                            const MaterialScores& s, const std::vector<MaterialVerdict>& list) {
+    std::vector<std::string> opposed;
+    for (std::size_t h = 0; h < list.size(); ++h) {
+        const double gain = gain_over(column_mean(s.error, h), column_mean(d.control().error, h));
+        if (!std::isfinite(gain) || !std::isfinite(list[h].gain.value) ||
+            printed_sign(gain) * printed_sign(list[h].gain.value) >= 0)
+            continue;
+        opposed.push_back(fmt::format("+{} ({})", j.options.horizons[h], signed_percent(gain)));
+    }
+    if (opposed.empty()) return {};
+    return fmt::format(" The squared error of its frames says the opposite at {}.",
+                       fmt::join(opposed, ", "));
+}
+
 /// How sure that is at each horizon that has blocks enough, and which have not.
 std::string sure_sentence(const MaterialJudgment& j, const std::vector<MaterialVerdict>& list) {
     std::vector<std::string> said, few;
@@ -118,7 +134,7 @@ Json row_json(const MaterialJudgment& j, const MaterialScores& s,
                            {"lpips", mean(s.lpips)},
                            {"frame_mse", mean(s.error)},
                            {"moved", mean(s.moved)},
-                           {"agreement", mean(s.agreement)},
+                           {"agreement", number_json(mean_where_finite(s.agreement, h))},
                            {"outside_pixels", mean(s.outside_pixels)},
                            {"outside_channels", mean(s.outside_channels)}};
         if (verdicts) at_horizon["gain"] = json_of((*verdicts)[h].gain);
@@ -128,6 +144,18 @@ Json row_json(const MaterialJudgment& j, const MaterialScores& s,
 }
 
 }  // namespace
+
+double mean_where_finite(const ErrorTable& table, std::size_t horizon) {
+    double sum = 0;
+    int count = 0;
+    for (int w = 0; w < table.windows; ++w) {
+        const double v = table.at(w, int(horizon));
+        if (!std::isfinite(v)) continue;
+        sum += v;
+        ++count;
+    }
+    return sum / count;  // 0 / 0 is NaN
+}
 
 std::vector<MaterialDirectionVerdict> material_verdicts(const MaterialJudgment& judgment) {
     const std::size_t horizons = judgment.options.horizons.size();
@@ -141,9 +169,11 @@ std::vector<MaterialDirectionVerdict> material_verdicts(const MaterialJudgment& 
             for (std::size_t h = 0; h < horizons; ++h)
                 list.push_back({column_mean(s.flip, h), column_mean(d.control().flip, h),
                                 resolved(flip_ratios(d, s, h), flip_bootstrap(judgment, h))});
-            verdict.sentences.push_back(looks_sentence(judgment, d, s.name, list) +
-                                        sure_sentence(judgment, list) +
-                                        crossover_sentence(judgment, d, s, list));
+            if (i >= MaterialDirection::kControls)
+                verdict.sentences.push_back(looks_sentence(judgment, d, s.name, list) +
+                                            frames_sentence(judgment, d, s, list) +
+                                            sure_sentence(judgment, list) +
+                                            crossover_sentence(judgment, d, s, list));
             verdict.rows.push_back(std::move(list));
         }
         for (const MaterialScores& limited : d.rows) {
