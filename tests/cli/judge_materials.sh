@@ -6,7 +6,8 @@ for preset in chamber air; do
     fail "simulate failed"
 done
 two=("$scratch/chamber.mkv" "$scratch/air.mkv")
-few=(--size 48 --windows 3 --picture 48 --samples 8)
+small=(--size 48 --picture 48 --samples 8)
+few=("${small[@]}" --windows 3)
 
 "$verdigris" judge-materials "${two[@]}" "${few[@]}" -o "$scratch/jm" --horizons 20,2 --json \
   --forecasters affinergb,affinergb-clamped,affinergb-in-range,affinergb-ridge,bandtrend,auto \
@@ -35,11 +36,11 @@ sums=$(cat "$scratch/jm/SHA256SUMS")
 [ "$(cat "$scratch/jm/SHA256SUMS")" = "$sums" ] || fail "one thread gives other bytes"
 
 # One held out; one alone; other shapes and the other scale of coverage.
-"$verdigris" judge-materials "${two[@]}" "${few[@]}" --windows 1 -o "$scratch/one" --horizons 5 --hold-out air --scene plate \
+"$verdigris" judge-materials "${two[@]}" "${small[@]}" --windows 1 -o "$scratch/one" --horizons 5 --hold-out air --scene plate \
   --coverage-scale frame --whole --forecasters affinergb --json >"$scratch/one.json" 2>/dev/null || fail "--hold-out failed"
 ! grep -q '"air -> chamber"' "$scratch/one.json" || fail "--hold-out air judges the chamber"
 grep -q '"coverage_scale": "frame"' "$scratch/one.json" || fail "--coverage-scale is not in the JSON"
-"$verdigris" judge-materials "$scratch/air.mkv" "${few[@]}" --windows 1 -o "$scratch/single" --horizons 5 --single --quiet ||
+"$verdigris" judge-materials "$scratch/air.mkv" "${small[@]}" --windows 1 -o "$scratch/single" --horizons 5 --single --quiet ||
   fail "--single failed"
 grep -q 'within air' "$scratch/single/report.html" || fail "--single is not labeled so"
 
@@ -47,7 +48,7 @@ grep -q 'within air' "$scratch/single/report.html" || fail "--single is not labe
 expect 4 "holds a result of .judge-materials." "$verdigris" evaluate "${two[@]}" -o "$scratch/jm" --force
 echo mine >"$scratch/jm/renders/mine.png"
 expect 4 "holds 'renders/mine.png'" "$verdigris" judge-materials "${two[@]}" "${few[@]}" -o "$scratch/jm" --force
-expect 3 "is not there" "$verdigris" audit "$scratch/jm"
+expect 3 "is a result of .judge-materials., which audit does not take" "$verdigris" audit "$scratch/jm"
 
 cp "${two[0]}" "$scratch/copy.mkv"
 mkdir "$scratch/mine" && touch "$scratch/mine/thesis.tex"

@@ -44,6 +44,20 @@ std::string looks_sentence(const MaterialJudgment& j, const MaterialDirection& d
                        name, fmt::join(parts, "; "));
 }
 
+/// How much of what the control is punished for is color.
+std::string finish_sentence(const MaterialJudgment& j, const MaterialDirection& d) {
+    const ErrorTable& finish = d.rows[MaterialDirection::kControls - 1].flip;
+    std::vector<std::string> parts;
+    for (std::size_t h = 0; h < j.options.horizons.size(); ++h)
+        parts.push_back(fmt::format("{:.4f} at +{} instead of {:.4f}", column_mean(finish, h),
+                                    j.options.horizons[h], column_mean(d.control().flip, h)));
+    return fmt::format(
+        "{}: with the true frame's roughness, metallic and normals the static control's old color "
+        "has a FLIP of {}. The rest of its FLIP is finish, which a forecast gains by moving at "
+        "all.",
+        d.label, fmt::join(parts, ", "));
+}
+
 /// Where the squared error of the frames says the opposite.
 std::string frames_sentence(const MaterialJudgment& j, const MaterialDirection& d,
                             const MaterialScores& s, const std::vector<MaterialVerdict>& list) {
@@ -176,6 +190,7 @@ std::vector<MaterialDirectionVerdict> material_verdicts(const MaterialJudgment& 
                                             crossover_sentence(judgment, d, s, list));
             verdict.rows.push_back(std::move(list));
         }
+        verdict.sentences.push_back(finish_sentence(judgment, d));
         for (const MaterialScores& limited : d.rows) {
             for (const std::string_view suffix : {kClampedSuffix, kInRangeSuffix}) {
                 if (!limited.name.ends_with(suffix)) continue;
