@@ -53,7 +53,7 @@ expect 3 "is a result of .judge-materials., which audit does not take" "$verdigr
 cp "${two[0]}" "$scratch/copy.mkv"
 mkdir "$scratch/mine" && touch "$scratch/mine/thesis.tex"
 bad() { # bad STATUS PATTERN ARGUMENT...
-  expect "$1" "$2" "$verdigris" judge-materials "${@:3}" "${few[@]}" -o "$scratch/bad"
+  expect "$1" "$2" "$verdigris" judge-materials "${@:3}" "${few[@]}" --quiet -o "$scratch/bad"
   [ "$(grep -c . "$scratch/stderr")" -eq 1 ] || fail "more than a sentence: $(cat "$scratch/stderr")"
   expect_nothing "$scratch/bad"
 }

@@ -89,7 +89,10 @@ Image<SrgbU8> draw_material_contact(const MaterialJudgment& judgment, std::size_
             tile(canvas, x + side + kGap, y, e.truth);
             tile(canvas, x + 2 * (side + kGap), y, magma(r.flip, full));
             put(canvas, x, y + side + 19, column,
-                fmt::format("{}{}: mean FLIP {:.4f}", r.name, row == 0 ? " (static control)" : "",
+                fmt::format("{}{}: mean FLIP {:.4f}", r.name,
+                            row == 0   ? " (static control)"
+                            : row == 2 ? " (old color, true maps: no forecast)"
+                                       : "",
                             r.mean),
                 kLabel);
         }
