@@ -263,6 +263,13 @@ void tell_likeness(Session& session, const EvaluationRecord& record) {
 
 void run(Session& session, const std::string& results) {
     const fs::path folder = results;
+    std::error_code error;
+    if (fs::is_regular_file(folder / kMaterialsFile, error))
+        throw Error(
+            ErrorCode::bad_input,
+            "is a result of `judge-materials`, which audit does not take; evaluate the same "
+            "forecasters for one that it does",
+            folder.string());
     const EvaluationRecord record =
         record_from(read_json(folder / kRecordFile), (folder / kRecordFile).string());
     Statuses findings =

@@ -20,6 +20,7 @@ void add_simulate(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);
 void add_characterize(CLI::App& app, Session& session);
 void add_drift(CLI::App& app, Session& session);
+void add_judge_materials(CLI::App& app, Session& session);
 void add_audit(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);

@@ -12,8 +12,10 @@
 #include "arguments.h"
 #include "learned.h"
 #include "stages.h"
+#include "verdigris/appearance/material_report.h"
 #include "verdigris/evaluate/characterize.h"
 #include "verdigris/forecast/choose.h"
+#include "verdigris/forecast/observed_range.h"
 #include "verdigris/results/protocol_file.h"
 #include "verdigris/results/result_files.h"
 
@@ -172,18 +174,29 @@ EvaluationProtocol protocol_for(Session& session, const JudgeArguments& a,
     return protocol;
 }
 
-std::vector<Entrant> entrants_from(const std::string& names) {
+std::vector<Entrant> entrants_from(const std::string& names, int furthest) {
     std::vector<Entrant> entrants;
     for (const std::string& name : split(names)) {
         if (name == "persistence" || is_checkpoint(name)) continue;  // the first is always there
-        ChooseOptions paper;
-        paper.ridge_k = 0;
-        paper.clamp = false;
-        const std::string_view kRidge = "-ridge";
-        const bool product = name == "auto" || name.ends_with(kRidge);
-        const std::string base =
-            name.ends_with(kRidge) ? name.substr(0, name.size() - kRidge.size()) : name;
-        Forecaster forecaster = forecaster_by_name(base, product ? ChooseOptions() : paper);
+        std::string base = name;
+        const auto ends = [&](std::string_view suffix) {
+            if (!base.ends_with(suffix)) return false;
+            base.resize(base.size() - suffix.size());
+            return true;
+        };
+        const bool in_range = furthest > 0 && ends(kInRangeSuffix);
+        const bool product = name == "auto" || ends("-ridge");
+        ChooseOptions options;
+        if (!product) {
+            options.ridge_k = 0;  // the paper's
+            options.clamp = ends(kClampedSuffix);
+        }
+        Forecaster forecaster = forecaster_by_name(base, options);
+        if (in_range) {
+            std::vector<double> units;
+            for (int k = 1; k <= furthest; ++k) units.push_back(k);
+            forecaster = within_observed_range(std::move(forecaster), std::move(units));
+        }
         Entrant entrant = training_free(std::move(forecaster));
         entrant.name = name;
         entrants.push_back(std::move(entrant));
@@ -207,7 +220,7 @@ void check_results_folder(const fs::path& output, const char* mark, bool force) 
     const bool ours = fs::is_regular_file(output / mark, error);
     for (const auto& [other, command] :
          {std::pair(kEvaluationFile, "evaluate"), std::pair(kCharacterizationFile, "characterize"),
-          std::pair(kDriftFile, "drift")}) {
+          std::pair(kDriftFile, "drift"), std::pair(kMaterialsFile, "judge-materials")}) {
         if (other == std::string_view(mark) || !fs::is_regular_file(output / other, error))
             continue;
         // Not even --force: of two results in one folder neither would be whole.
@@ -220,7 +233,9 @@ void check_results_folder(const fs::path& output, const char* mark, bool force) 
         const std::string name = entry.path().filename().string();
         if (name.starts_with(".partial-")) continue;
         // Not even --force replaces what is not ours: these would go as whole folders.
-        const bool in_the_way = name == "tables" || name == "figures" || name == "report.html";
+        const bool in_the_way =
+            name == "tables" || name == "figures" || name == "report.html" ||
+            (mark == std::string_view(kMaterialsFile) && name == kRendersFolder);
         if (ours && !in_the_way) continue;
         const std::string own = ours ? unlisted_file(output, name, list) : name;
         if (own.empty()) continue;

@@ -45,10 +45,12 @@ EvaluationProtocol protocol_for(Session& session, const JudgeArguments& argument
                                 const std::vector<Observation>& observations);
 
 /// `auto`, `persistence`, `affinergb...` as training-free entrants. The affine family is the
-/// paper's: no ridge, no clamp; "-ridge" behind a name gives it as the product has it. Names of
-/// checkpoints are left to learned_entrants.
+/// paper's: no ridge, no clamp; "-ridge" behind a name gives it as the product has it, "-clamped"
+/// the paper's with its drift stopped at the gamut. Names of checkpoints are left to
+/// learned_entrants. With `furthest` > 0 "-in-range" behind any name keeps its colors in those of
+/// the context, at whole units up to there.
 /// Throws Error{usage} for a name that is none.
-std::vector<Entrant> entrants_from(const std::string& names);
+std::vector<Entrant> entrants_from(const std::string& names, int furthest = 0);
 /// The checkpoints among them.
 std::vector<std::string> checkpoints_among(const std::string& names);
 
@@ -58,6 +60,8 @@ inline constexpr const char* kRecordFile = "record.json";
 inline constexpr const char* kProtocolFile = "protocol.toml";
 inline constexpr const char* kCharacterizationFile = "characterization.json";
 inline constexpr const char* kDriftFile = "drift.json";
+inline constexpr const char* kMaterialsFile = "materials.json";
+inline constexpr const char* kRendersFolder = "renders";
 inline constexpr const char* kDriftMapsFile = "drift_gains.csv";
 
 /// A folder belongs to the command whose `mark` (kEvaluationFile ...) is in it, and is replaced by

@@ -74,11 +74,25 @@ LearnedForecaster learned_forecaster(const std::string& path, const std::vector<
             checkpoint.network->config().context, std::move(notes)};
 }
 
+namespace {
+
+constexpr const char* kNoWeights =
+    "no weights: --lpips-weights names them, docs/models/metrics.md their making";
+
+std::string too_small(const Lpips& lpips, int width, int height) {
+    const int smallest = lpips_smallest(lpips.net());
+    if (width >= smallest && height >= smallest) return {};
+    return fmt::format("LPIPS of {} needs pictures of at least {} x {} pixels; these have {} x {}",
+                       to_string(lpips.net()), smallest, smallest, width, height);
+}
+
+}  // namespace
+
 LpipsOutcome lpips_of(const std::string& weights, const std::string& net,
                       const Image<SrgbF>& reference, const Image<SrgbF>& test) {
     LpipsOutcome out;
     if (weights.empty()) {
-        out.why_not = "no weights: --lpips-weights names them, docs/models/metrics.md their making";
+        out.why_not = kNoWeights;
         return out;
     }
     const Lpips lpips{weights};
@@ -89,16 +103,21 @@ LpipsOutcome lpips_of(const std::string& weights, const std::string& net,
                     fmt::format("holds the weights of {}, and {} was asked for", out.net, net),
                     weights);
     use_cpu_for_networks(1);  // its last digits depend on how many there are
-    const int smallest = lpips_smallest(lpips.net());
-    if (reference.width() < smallest || reference.height() < smallest) {
-        out.why_not = fmt::format(
-            "LPIPS of {} needs pictures of at least {} x {} pixels; these "
-            "have {} x {}",
-            out.net, smallest, smallest, reference.width(), reference.height());
-        return out;
-    }
+    out.why_not = too_small(lpips, reference.width(), reference.height());
+    if (!out.why_not.empty()) return out;
     out.distance = lpips.distance(reference, test);
     return out;
+}
+
+LpipsMeasure lpips_measure(const std::string& weights, int width, int height) {
+    if (weights.empty()) return {{}, kNoWeights};
+    const auto lpips = std::make_shared<const Lpips>(weights);
+    use_cpu_for_networks(1);  // its last digits depend on how many there are
+    if (std::string why = too_small(*lpips, width, height); !why.empty()) return {{}, why};
+    return {[lpips](const Image<SrgbF>& reference, const Image<SrgbF>& test) {
+                return lpips->distance(reference, test);
+            },
+            {}};
 }
 
 }  // namespace verdigris::cli

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,5 +47,13 @@ struct LpipsOutcome {
 };
 LpipsOutcome lpips_of(const std::string& weights, const std::string& net,
                       const Image<SrgbF>& reference, const Image<SrgbF>& test);
+
+/// The same for many pictures: the weights are read once. `distance` is empty where `why_not` says
+/// why.
+struct LpipsMeasure {
+    std::function<double(const Image<SrgbF>& reference, const Image<SrgbF>& test)> distance;
+    std::string why_not;
+};
+LpipsMeasure lpips_measure(const std::string& weights, int width, int height);
 
 }  // namespace verdigris::cli

@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
     cli::add_evaluate(app, session);
     cli::add_characterize(app, session);
     cli::add_drift(app, session);
+    cli::add_judge_materials(app, session);
     cli::add_audit(app, session);
     cli::add_compare(app, session);
     cli::add_learned_commands(app, session);

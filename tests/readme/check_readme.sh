@@ -6,7 +6,7 @@ root=$1 verdigris=$2
 bad=0
 complain() { echo "$*"; bad=1; }
 
-commands=$(grep -oE '^verdigris [a-z]+' "$root/README.md" | awk '{print $2}' | sort -u)
+commands=$(grep -oE '^verdigris [a-z-]+' "$root/README.md" | awk '{print $2}' | sort -u)
 [ "$(wc -w <<<"$commands")" -ge 8 ] || complain "found only these commands in the README: $commands"
 for command in $commands; do
   "$verdigris" "$command" --help >/dev/null 2>&1 || complain "README shows '$command', which the program lacks"

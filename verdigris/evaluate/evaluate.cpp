@@ -234,7 +234,8 @@ void keep_rows(ErrorTable& table, const std::vector<int>& keep) {
 
 void score_windows(const EvaluationProtocol& protocol, const Entry& entry,
                    const std::vector<Entrant>& entrants, const std::vector<Forecaster>& forecasters,
-                   Direction& direction, Statuses& notes, const Progress& progress) {
+                   Direction& direction, Statuses& notes, const Progress& progress,
+                   const WindowVisitor& visit) {
     const HeldRecording held(*entry.observation, entry.plan.usable, progress);
     const WindowScorer scorer(protocol, *entry.observation, held, direction.tau);
     direction.specimen_pixels = scorer.specimen_pixels();
@@ -246,15 +247,23 @@ void score_windows(const EvaluationProtocol& protocol, const Entry& entry,
     RepeatCheck repeat(protocol, scorer, starts.front(), forecasters);
     std::vector<std::int64_t> pixels(starts.size());
     ScratchPool pool;
-    for (int begin = 0; begin < windows; begin += kWindowsAtOnce) {
+    const int at_once = visit ? 1 : kWindowsAtOnce;
+    for (int begin = 0; begin < windows; begin += at_once) {
         report(progress, "evaluate", begin, windows);
-        parallel_for(std::min(kWindowsAtOnce, windows - begin), [&](int i) {
+        parallel_for(std::min(at_once, windows - begin), [&](int i) {
             WindowScratch scratch = pool.take();
+            scratch.keep_forecasts = bool(visit);
             const int row = begin + i;
             pixels[std::size_t(row)] = scorer.score(starts[std::size_t(row)], row, forecasters,
                                                     direction.entrants, scratch);
             pool.give(std::move(scratch));
         });
+        if (!visit || pixels[std::size_t(begin)] < protocol.min_foreground) continue;
+        WindowScratch scratch = pool.take();  // the only one there is
+        const int start = starts[std::size_t(begin)];
+        visit({direction, *entry.observation, start, scratch.context, scratch.forecasts,
+               [&](int unit) -> const Image<SrgbF>& { return scorer.truth(start, unit - 1); }});
+        pool.give(std::move(scratch));
     }
     report(progress, "evaluate", windows, windows);
     repeat.finish(direction, notes);
@@ -310,7 +319,8 @@ Entrant training_free(Forecaster forecaster) {
 }
 
 Evaluation evaluate(const EvaluationProtocol& protocol, std::span<const Observation> observations,
-                    const std::vector<Entrant>& entrants, const Progress& progress) {
+                    const std::vector<Entrant>& entrants, const Progress& progress,
+                    const WindowVisitor& visit) {
     check_protocol(protocol);
     check_enough(protocol, observations, entrants);
     const std::vector<Entrant> all = with_persistence(entrants);
@@ -349,7 +359,7 @@ Evaluation evaluate(const EvaluationProtocol& protocol, std::span<const Observat
         used.held_out = direction.held_out;
         const std::vector<Forecaster> forecasters =
             forecasters_for(all, entries, i, used, progress);
-        score_windows(protocol, entry, all, forecasters, direction, notes, progress);
+        score_windows(protocol, entry, all, forecasters, direction, notes, progress, visit);
         note_skipped(direction, notes);
         used.uses.push_back({SampleRole::test,
                              direction.held_out,

@@ -39,6 +39,20 @@ struct Entrant {
 /// Under the forecaster's own name.
 Entrant training_free(Forecaster forecaster);
 
+/// A window that was scored, for who wants to know more of it than its errors.
+struct ScoredWindow {
+    const Direction& direction;  ///< what was planned for it; its tables are not full yet
+    const Observation& observation;
+    int start = 0;           ///< first sample
+    const Context& context;  ///< what the forecasters saw
+    /// Of persistence, then of the entrants in their order.
+    std::span<const Forecast> forecasts;
+    /// The true frame `unit` units after the last of the context, 1 to protocol.horizons.
+    std::function<const Image<SrgbF>&(int unit)> truth;
+};
+/// Called for one window at a time, in their order, between two windows; may throw.
+using WindowVisitor = std::function<void(const ScoredWindow&)>;
+
 struct Evaluation {
     EvaluationProtocol protocol;
     std::vector<Direction> directions;  ///< one per recording, in their order
@@ -55,12 +69,14 @@ struct Evaluation {
 /// Memory: one recording as floats, at most 800 MB, else refused. Cost, 128 x 128, two cores: see
 /// docs/PROTOCOL.md. Deterministic at any thread count. `progress` stages: "hash", "train", "load",
 /// "evaluate".
+/// With `visit` windows are scored one by one, and each that is scored is shown to it.
 /// Throws Error{usage}: the protocol, no observation, two entrants of one name. Error{bad_input}
 /// naming the recording: too short, not the grid's samples, not every sample kept, too large.
 /// Error{refused}: one recording without protocol.single; a trained forecaster with it, or where a
 /// source's splits do not fit; two copies, or near copies, of one recording. Error{failed}: a
 /// forecast of another size, or not finite.
 Evaluation evaluate(const EvaluationProtocol& protocol, std::span<const Observation> observations,
-                    const std::vector<Entrant>& entrants, const Progress& progress = {});
+                    const std::vector<Entrant>& entrants, const Progress& progress = {},
+                    const WindowVisitor& visit = {});
 
 }  // namespace verdigris

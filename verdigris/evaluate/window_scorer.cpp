@@ -132,13 +132,15 @@ std::int64_t WindowScorer::score(int start, int row, const std::vector<Forecaste
             lab_of_pixels(*truths[k], specimen_indices_, scratch.truth_lab[k]);
         }
     }
+    scratch.forecasts.clear();
     for (std::size_t i = 0; i < forecasters.size(); ++i) {
-        const Forecast forecast = forecasters[i].forecast(scratch.context);
+        Forecast forecast = forecasters[i].forecast(scratch.context);
         if (i > 0 && holds(forecast, scratch.context)) {
             copy_row(scores.front(), row, scores[i]);  // persistence again, to the bit
         } else {
             score_one(forecast, start, row, scores[i], scratch);
         }
+        if (scratch.keep_forecasts) scratch.forecasts.push_back(std::move(forecast));
     }
     return least;
 }

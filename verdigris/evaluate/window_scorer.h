@@ -23,6 +23,8 @@ struct WindowScratch {
     std::vector<PixelWeights> foreground;
     std::vector<LabPlanes> truth_lab;
     LabPlanes lab;
+    bool keep_forecasts = false;        ///< set it before score()
+    std::vector<Forecast> forecasts{};  ///< of the last window, in their order, if kept
 };
 
 /// Not one per thread: a thread that waits inside a forecaster may begin another window meanwhile.
@@ -50,11 +52,12 @@ class WindowScorer {
     std::int64_t score(int start, int row, const std::vector<Forecaster>& forecasters,
                        std::vector<EntrantScores>& scores, WindowScratch& scratch) const;
     std::int64_t specimen_pixels() const { return specimen_.count; }
+    /// The true frame k + 1 units after the context.
+    const Image<SrgbF>& truth(int start, int k) const;
 
   private:
     void score_one(const Forecast& forecast, int start, int row, EntrantScores& scores,
                    WindowScratch& scratch) const;
-    const Image<SrgbF>& truth(int start, int k) const;
 
     const EvaluationProtocol& protocol_;
     const Observation& observation_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A Forecast on disk: forecast.json, base.npy, rate.npy (and curvature.npy; H, W, 3 float32, or
-// stack.npy: T, H, W, 3), spread.npy (H, W, 3 float32) where the forecast states its spread, the context as context.npy (n, H, W, 3 float32) with specimen.png and
-// clipped.png, and one 16-bit PNG per asked horizon (forecast_u010.png).
+// stack.npy: T, H, W, 3), spread.npy (H, W, 3 float32) where the forecast states its spread, the
+// context as context.npy (n, H, W, 3 float32) with specimen.png and clipped.png, and one 16-bit PNG
+// per asked horizon (forecast_u010.png).
 #pragma once
 
 #include <filesystem>
