@@ -14,6 +14,7 @@ namespace verdigris {
 ///
 ///   {"format": "verdigris-manifest/1", "version": ..., <facts in their order>, "title", "stem",
 ///    "forecaster", "explanation", "context", "units_observed", "unit", "horizons": [...],
+///    "uncertainty": [{"horizon", "mean_80", "mean_95", "pixel_80", "pixel_95"}] or null,
 ///    "guards": [{"id", "severity", "sentence"}], "origins": [{"map", "origin", "sentence"}],
 ///    "noise": {"tau"}, "files": [{"path", "bytes", "sha256"}]}
 ///

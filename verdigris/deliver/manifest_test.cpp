@@ -29,12 +29,13 @@ TEST(Manifest, SaysEverythingInAStableOrder) {
     for (const auto& [key, value] : manifest.items()) keys.push_back(key);
     EXPECT_EQ(keys, (std::vector<std::string>{"format", "version", "source", "options", "title",
                                               "stem", "forecaster", "explanation", "context",
-                                              "units_observed", "unit", "horizons", "guards",
-                                              "origins", "noise", "files"}));
+                                              "units_observed", "unit", "horizons", "uncertainty",
+                                              "guards", "origins", "noise", "files"}));
     EXPECT_EQ(manifest["format"], "verdigris-manifest/1");
     EXPECT_EQ(manifest["options"].dump(), R"({"zeta":1,"alpha":[true,null]})");
     EXPECT_EQ(manifest["noise"]["sigma"], 0.004);
     EXPECT_EQ(manifest["guards"][0]["severity"], "caution");
+    EXPECT_TRUE(manifest["uncertainty"].is_null());  // this forecaster states none
     EXPECT_EQ(manifest["origins"].size(), map_origins(made.forecast).size());
     // FIPS 180-2's example, and the hash of nothing.
     EXPECT_EQ(manifest["files"][0].dump(),

@@ -72,7 +72,19 @@ TEST(ViewerJson, HasEveryFieldOfTheFormat) {
     }
     EXPECT_EQ(document["material"]["normal_scale"], made.recipe.options.normal_scale);
     EXPECT_EQ(document["material"]["tau"], made.recipe.tau);
-    EXPECT_EQ(document.size(), 18u);
+    EXPECT_TRUE(document["uncertainty"].is_null());
+    EXPECT_EQ(document.size(), 19u);
+}
+
+TEST(ViewerJson, TellsHowFarOffTheHorizonsMayBe) {
+    MadeDelivery made;
+    made.forecast.spread.own = made.forecast.trajectory.base.clone();
+    made.forecast.spread.nodes = {{20, 4e-4, 0}};
+    const Json list = Json::parse(viewer_json(made.delivery))["uncertainty"];
+    ASSERT_EQ(list.size(), made.delivery.horizons.size());
+    EXPECT_EQ(list[1]["horizon"], 20);
+    EXPECT_NEAR(list[1]["mean_95"].get<double>(), 0.02 * kHalfWidth95, 1e-12);
+    EXPECT_NEAR(list[0]["pixel_80"].get<double>(), 0.01 * kHalfWidth80, 1e-12);
 }
 
 TEST(ViewerJson, BlobsReturnWithinHalfAStep) {
