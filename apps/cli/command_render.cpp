@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include "commands.h"
 #include "render_source.h"
@@ -36,7 +39,8 @@ struct Arguments {
 enum class OutputKind { png, exr, mp4 };
 
 OutputKind output_kind(const Arguments& a) {
-    const std::string extension = fs::path(a.output).extension().string();
+    std::string extension = fs::path(a.output).extension().string();
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
     if (extension == ".png") return OutputKind::png;
     if (extension == ".exr") return OutputKind::exr;
     if (extension == ".mp4") return OutputKind::mp4;
@@ -73,6 +77,8 @@ class Stage {
         : setting_(setting_of(a, aspect)), tracer_(setting_.shape), lighting_(lighting_of(a)) {
         options_.width = options_.height = a.size;
         options_.tolerance = a.tolerance;
+        // Linear light has no exposure: its noise is judged as it would be developed by default.
+        options_.exposure = output_kind(a) == OutputKind::exr ? 0 : a.exposure;
         exposure_ = a.exposure;
     }
     const Setting& setting() const { return setting_; }
@@ -178,6 +184,19 @@ void check(const Arguments& a, const RenderSource& source) {
                     "maps has one age only",
                     a.input);
     }
+    // "nan" passes every range.
+    for (const auto& [name, value] : {std::pair{"--seconds", a.seconds},
+                                      {"--fps", a.fps},
+                                      {"--exposure", a.exposure},
+                                      {"--noise", a.tolerance}}) {
+        if (!std::isfinite(value)) {
+            throw Error(ErrorCode::usage, fmt::format("{}: {} is no number", name, value));
+        }
+    }
+    if (video && a.size % 2 != 0) {
+        throw Error(ErrorCode::usage,
+                    fmt::format("an .mp4 needs an even --size; {} is odd", a.size), a.output);
+    }
     if (video && a.horizons.size() > 1) {
         throw Error(ErrorCode::usage, "a video takes one horizon: --motion aging goes up to it");
     }
@@ -193,7 +212,15 @@ void run(Session& session, Arguments a) {
     std::sort(horizons.begin(), horizons.end());
     horizons.erase(std::unique(horizons.begin(), horizons.end()), horizons.end());
 
-    for (const double h : horizons) check_new(still_path(a, horizons, h), session.force);
+    std::set<fs::path> paths;
+    for (const double h : horizons) {
+        const fs::path path = still_path(a, horizons, h);
+        check_new(path, session.force);
+        if (!paths.insert(path).second) {
+            throw Error(ErrorCode::usage,
+                        fmt::format("two of the --horizons would both be {}", path.string()));
+        }
+    }
     Stage stage(a, source.aspect());
     std::vector<fs::path> written{a.output};
     if (output_kind(a) == OutputKind::mp4) {

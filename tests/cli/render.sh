@@ -70,6 +70,10 @@ bad 2 "motion" "$scratch/aged" "${out[@]}" --motion aging
 bad 2 "one age" "$pack" "${out[@]}" --horizons 5
 bad 2 "one horizon" "$scratch/aged" -o "$scratch/bad/x.mp4" --horizons 5,10
 bad 2 "horizons.*range" "$scratch/aged" "${out[@]}" --horizons -1
+bad 2 "exposure.*no number" "$scratch/aged" "${out[@]}" --exposure nan
+bad 2 "seconds.*no number" "$scratch/aged" -o "$scratch/bad/x.mp4" --seconds nan
+bad 2 "noise.*no number" "$scratch/aged" "${out[@]}" --noise nan
+bad 2 "both be .*x_u003_333\.png" "$scratch/aged" "${out[@]}" --horizons 3.33333,3.3333333
 bad 3 "nowhere" "$scratch/nowhere" "${out[@]}"
 bad 3 "_Color" "$scratch/plate" "${out[@]}"
 bad 3 "ages.*folder of maps" "$scratch/ages" "${out[@]}"
@@ -85,6 +89,29 @@ bad 3 "nan\.exr: .*NaN" "$scratch/aged" "${out[@]}" --light "$scratch/skies/nan.
 bad 3 "inf\.exr: .*infinity" "$scratch/aged" "${out[@]}" --light "$scratch/skies/inf.exr"
 bad 3 "black\.exr: .*black" "$scratch/aged" "${out[@]}" --light "$scratch/skies/black.exr"
 bad 3 "giant\.exr" "$scratch/aged" "${out[@]}" --light "$scratch/skies/giant.exr"
+
+# Maps that are cut or of another size.
+cp -r "$pack" "$scratch/cutmap"
+rm -rf "$scratch/cutmap/masters16"
+rough=$(find "$scratch/cutmap" -name '*_Roughness.png')
+head -c 200 "$(find "$pack" -maxdepth 1 -name '*_Roughness.png')" >"$rough"
+bad 3 "_Roughness\.png" "$scratch/cutmap" "${out[@]}"
+cp "$scratch/plate/0000.png" "$rough"
+bad 3 "_Roughness\.png: has 64 x 64 pixels, but" "$scratch/cutmap" "${out[@]}"
+
+# No room for it: nothing half-written.
+(
+  ulimit -f 2
+  trap '' XFSZ
+  for kind in png exr mp4; do
+    expect 1 "x\.$kind: cannot be written" "$verdigris" render "$pack" -o "$scratch/bad/x.$kind" --size 128 \
+      --noise 64 --seconds 0.1 --quiet
+  done
+  [ "$failures" -eq 0 ]
+) || fail "file-size limit"
+expect_nothing "$scratch/bad"
+mkdir -p "$scratch/folder.png"
+expect 1 "folder\.png: .*folder" "$verdigris" render "$pack" -o "$scratch/folder.png" --force --size 16 --quiet
 
 # Interrupted: nothing half-written.
 "$verdigris" render "$scratch/aged" -o "$scratch/bad/long.mp4" --size 1024 --noise 0.1 --quiet &

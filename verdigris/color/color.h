@@ -4,4 +4,5 @@
 
 #include "verdigris/color/convert.h"
 #include "verdigris/color/delta_e.h"
+#include "verdigris/color/magma.h"
 #include "verdigris/color/pixel_types.h"

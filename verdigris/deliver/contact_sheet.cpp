@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "verdigris/color/magma.h"
 #include "verdigris/deliver/sheet_canvas.h"
 #include "verdigris/deliver/sheet_chart.h"
 #include "verdigris/deliver/sheet_layout.h"

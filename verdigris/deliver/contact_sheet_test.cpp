@@ -7,7 +7,6 @@
 
 #include <algorithm>
 
-#include "verdigris/color/convert.h"
 #include "verdigris/deliver/sheet_chart.h"
 #include "verdigris/deliver/sheet_layout.h"
 #include "verdigris/deliver/sheet_tiles.h"
@@ -206,24 +205,6 @@ TEST(ChangeMap, ScaleIsRoundAndNeverTiny) {
     EXPECT_DOUBLE_EQ(scale_of(0.3f), 0.5);
     EXPECT_DOUBLE_EQ(scale_of(0.9f), 1);
     EXPECT_DOUBLE_EQ(change_scale({}, {}), 0.01);
-}
-
-TEST(Magma, GrowsLighterFromBlack) {
-    Image<float> ramp(100, 1);
-    for (int x = 0; x < 100; ++x) ramp(x, 0) = float(x) / 99;
-    const Image<SrgbU8> colors = magma(ramp, 1);
-    EXPECT_LT(colors(0, 0).r + colors(0, 0).g + colors(0, 0).b, 12);
-    // The table's end in Matplotlib: (252, 253, 191).
-    EXPECT_NEAR(colors(99, 0).r, 252, 1);
-    EXPECT_NEAR(colors(99, 0).g, 253, 1);
-    EXPECT_NEAR(colors(99, 0).b, 191, 1);
-    float before = -1;
-    for (int x = 0; x < 100; ++x) {
-        const SrgbU8 c = colors(x, 0);
-        const float light = luma(srgb_from_u8(c));
-        EXPECT_GE(light, before - 0.005f);
-        before = light;
-    }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "verdigris/color/convert.h"
+#include "verdigris/color/magma.h"
 
 namespace verdigris {
 namespace {

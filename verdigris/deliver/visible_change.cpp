@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <opencv2/imgproc.hpp>
 
 #include "verdigris/pixels/parallel_rows.h"
 
@@ -73,19 +71,6 @@ double change_scale(const std::vector<Image<float>>& maps, const Mask& where) {
         largest = std::max(largest, double(*nth));
     }
     return round_scale(largest);
-}
-
-Image<SrgbU8> magma(const Image<float>& map, double full) {
-    cv::Mat ramp(1, 256, CV_8UC1), colors;
-    for (int i = 0; i < 256; ++i) ramp.at<std::uint8_t>(0, i) = std::uint8_t(i);
-    cv::applyColorMap(ramp, colors, cv::COLORMAP_MAGMA);
-    Image<SrgbU8> picture = Image<SrgbU8>::for_overwrite(map.width(), map.height());
-    for (std::size_t i = 0; i < map.pixel_count(); ++i) {
-        const double share = std::clamp(double(map.pixels()[i]) / full, 0.0, 1.0);
-        const auto bgr = colors.at<cv::Vec3b>(0, int(std::lround(share * 255)));
-        picture.pixels()[i] = {bgr[2], bgr[1], bgr[0]};
-    }
-    return picture;
 }
 
 }  // namespace verdigris

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How much each pixel changes until a horizon, and how to show it.
+// How much each pixel changes until a horizon, and up to where a scale of colors shows it.
 #pragma once
 
 #include <vector>
@@ -21,8 +21,5 @@ double round_scale(double largest);
 /// The end of the color scale for these maps: the 99.5th percentile of the one that changes most,
 /// through round_scale().
 double change_scale(const std::vector<Image<float>>& maps, const Mask& where);
-
-/// Matplotlib's "magma" [Magma], through OpenCV's table: 0 is black, `full` and above the lightest.
-Image<SrgbU8> magma(const Image<float>& map, double full);
 
 }  // namespace verdigris

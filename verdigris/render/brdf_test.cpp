@@ -55,6 +55,27 @@ TEST(Brdf, WhiteMetalReflectsAllItGets) {
     }
 }
 
+TEST(Reflectance, TheTableAgreesWithManyMorePoints) {
+    for (const int r : {3, 10, 31}) {  // at its own nodes: how they are interpolated is above
+        const float alpha = alpha_of(float(r) / 31);
+        for (const int c : {6, 16, 31}) {
+            const float z = float(c * c) / (31 * 31);
+            const Vec3F v = direction(z, 0);
+            constexpr std::uint32_t kMany = 1 << 16;
+            double sum = 0;
+            for (std::uint32_t i = 0; i < kMany; ++i) {
+                const Vec3F l = reflected(v, visible_half(v, alpha, sobol_point(i, 1, 5)));
+                if (l.z <= 0) continue;
+                // G2 / G1(v), from the masking of each direction alone.
+                const auto lambda = [&](float x) { return (smith_root(x, alpha) / x - 1) / 2; };
+                sum += double((1 + lambda(v.z)) / (1 + lambda(v.z) + lambda(l.z)));
+            }
+            EXPECT_NEAR(ReflectanceRow(float(r) / 31).at(z).whole(), sum / kMany, 0.003)
+                << "roughness " << r << " / 31, cosine " << z;
+        }
+    }
+}
+
 TEST(Brdf, WithoutSecondScatteringRoughMetalWouldLoseAThird) {
     // What the test above would measure without compensation: proof that it can fail.
     EXPECT_LT(ReflectanceRow(1).at(0.8f).whole(), 0.7f);

@@ -86,11 +86,13 @@ LightPaths::Vertex LightPaths::vertex(const RayHit& hit, Vec3F direction) const 
     if (dot(t, t) == 0) t = frame_around(n).tangent;
     const Vec3F b = cross(n, t) * shape.tangents[corner[0]].sign;
     const Vec3F viewer = -direction;
-    if (dot(face, viewer) < 0) {  // seen from behind: the normal turns around, as glTF asks
-        face = -face;
-        n = -n;
-    }
     Vec3F bent = t * point.normal.x + b * point.normal.y + n * point.normal.z;
+    // Seen from behind the normal turns around, as glTF asks, with what the map says: what stands
+    // out in front is a hollow there.
+    if (dot(face, viewer) < 0) {
+        face = -face;
+        bent = -bent;
+    }
     const float facing = dot(bent, viewer);
     if (facing < kLeastCosine) bent = bent + viewer * (kLeastCosine - facing);
     const LocalFrame frame = frame_around(unit(bent));

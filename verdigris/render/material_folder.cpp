@@ -86,13 +86,16 @@ struct Samples {
 };
 
 Samples read(const fs::path& path, const Image<SrgbF>* like) {
-    Samples samples{path, read_image(path)};
-    const ImageInfo& info = samples.file.info;
+    const ImageInfo info = read_image_info(path);  // before anything large is decoded
+    if (std::int64_t(info.width) * info.height > kMaxMaterialPixels) {
+        refuse(path, fmt::format("has {} x {} pixels; a map may have 8192 x 8192", info.width,
+                                 info.height));
+    }
     if (like && !like->same_size(info.width, info.height)) {
         refuse(path, fmt::format("has {} x {} pixels, but the color has {} x {}", info.width,
                                  info.height, like->width(), like->height()));
     }
-    return samples;
+    return {path, read_image(path)};
 }
 
 template <class P, class Convert>

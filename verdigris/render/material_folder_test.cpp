@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/png.h"
 #include "verdigris/files/testing.h"
@@ -17,6 +23,16 @@ Image<P> even(P value, int width = 6, int height = 4) {
     Image<P> image(width, height);
     std::ranges::fill(image.pixels(), value);
     return image;
+}
+
+// Of a chunk's name and data [PNG, Annex D].
+std::uint32_t crc_of(std::span<const std::byte> bytes) {
+    std::uint32_t crc = ~0u;
+    for (const std::byte b : bytes) {
+        crc ^= std::uint32_t(b);
+        for (int k = 0; k < 8; ++k) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320u : 0);
+    }
+    return ~crc;
 }
 
 class MaterialFolder : public testing::Test {
@@ -69,6 +85,20 @@ TEST_F(MaterialFolder, WhatIsMissingIsNamed) {
     EXPECT_EQ(read_material_folder(folder_.path()).normal(0, 0), (Vec3F{0, 0, 1}));
     write_png(folder_ / "b_Color.png", even(SrgbU8{10, 20, 30}));
     EXPECT_NE(sentence().find("both a_Color.png and b_Color.png"), std::string::npos);
+}
+
+TEST_F(MaterialFolder, AnImmenseMapIsRefusedBeforeItIsDecoded) {
+    // A header of 16384 x 8192 and nothing behind it: decoding would say "truncated".
+    write_png(folder_ / "a_Color.png", even(std::uint8_t(9)));
+    std::vector<std::byte> bytes = read_file(folder_ / "a_Color.png");
+    const std::array<unsigned, 8> size{0, 0, 0x40, 0, 0, 0, 0x20, 0};
+    for (std::size_t i = 0; i < 8; ++i) bytes[16 + i] = std::byte(size[i]);
+    const std::uint32_t crc = crc_of(std::span(bytes).subspan(12, 17));
+    for (std::size_t i = 0; i < 4; ++i) bytes[29 + i] = std::byte(crc >> (24 - 8 * i));
+    write_file(folder_ / "a_Color.png", bytes);
+    write_png(folder_ / "a_Roughness.png", even(std::uint8_t(9)));
+    EXPECT_NE(sentence().find("a_Color.png: has 16384 x 8192 pixels; a map may have 8192 x 8192"),
+              std::string::npos);
 }
 
 TEST_F(MaterialFolder, ADamagedMapIsNamed) {

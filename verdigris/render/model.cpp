@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -22,6 +23,8 @@ namespace {
 constexpr int kMostDepth = 64;          // of nodes, and of the JSON around them
 constexpr float kMostDistance = 1e12f;  // the square of its square is still a number
 constexpr std::size_t kMostNodes = 1'000'000;
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
 [[noreturn]] void refuse(const std::string& where, const std::string& sentence) {
     throw Error(ErrorCode::bad_input, sentence, where);
@@ -105,6 +108,7 @@ class Assembly {
         : where_(where), model_(model) {}
 
     Shape shape() {
+        check_extensions();
         const int wanted = model_.defaultScene >= 0 ? model_.defaultScene : 0;
         if (model_.scenes.empty()) {
             for (int i = 0; i < int(model_.meshes.size()); ++i) add_mesh(i, Matrix4{});
@@ -115,6 +119,7 @@ class Assembly {
             }
         }
         if (shape_.triangles.empty()) refuse(where_, "holds no triangles");
+        check_area();
         if (!has_tangents_) {
             shape_.tangents.clear();
             make_tangents(shape_);
@@ -124,6 +129,45 @@ class Assembly {
     }
 
   private:
+    // What says how a material looks, not where it lies, does not matter here.
+    void check_extensions() const {
+        for (const std::string& name : model_.extensionsRequired) {
+            const auto begins = [&](const char* with) { return name.rfind(with, 0) == 0; };
+            if (name == "KHR_mesh_quantization" || name == "KHR_lights_punctual" ||
+                begins("KHR_materials_") || begins("KHR_texture_") || begins("EXT_texture_")) {
+                continue;
+            }
+            if (name == kDraco || name == kMeshopt) refuse_compressed(name);
+            std::string shown = name.substr(0, 40);
+            for (char& c : shown) {
+                if (c < ' ' || c > '~') c = '?';
+            }
+            refuse(where_, fmt::format("needs '{}', an extension of glTF that is not read", shown));
+        }
+    }
+
+    [[noreturn]] void refuse_compressed(const std::string& how) const {
+        refuse(where_, fmt::format("is compressed ({}), which is not read", how));
+    }
+
+    // Of points and lines alone there would be an empty picture and no reason for it.
+    void check_area() const {
+        for (const auto& t : shape_.triangles) {
+            const auto at = [&](std::size_t k) { return shape_.positions[t[k]]; };
+            const auto side = [&](std::size_t k) {
+                return std::array<double, 3>{double(at(k).x) - double(at(0).x),
+                                             double(at(k).y) - double(at(0).y),
+                                             double(at(k).z) - double(at(0).z)};
+            };
+            const std::array<double, 3> a = side(1), b = side(2);
+            if (a[1] * b[2] != a[2] * b[1] || a[2] * b[0] != a[0] * b[2] ||
+                a[0] * b[1] != a[1] * b[0]) {
+                return;
+            }
+        }
+        refuse(where_, "holds no triangle with an area: nothing of it could be seen");
+    }
+
     void add_node(int index, const Matrix4& parent, int depth) {
         if (index < 0 || index >= int(model_.nodes.size())) refuse(where_, "has no such node");
         if (depth > kMostDepth) refuse(where_, "has nodes within nodes, too deep or in a circle");
@@ -155,10 +199,8 @@ class Assembly {
                            p.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
                            p.mode == TINYGLTF_MODE_TRIANGLE_FAN;
         if (!drawn) return;  // points and lines
-        for (const char* packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
-            if (p.extensions.count(packed) != 0) {
-                refuse(where_, fmt::format("is compressed ({}), which is not read", packed));
-            }
+        for (const char* packed : {kDraco, kMeshopt}) {
+            if (p.extensions.count(packed) != 0) refuse_compressed(packed);
         }
         const Accessor positions = attribute(p, "POSITION", 3);
         const Accessor normals = attribute(p, "NORMAL", 3);

@@ -18,8 +18,9 @@ inline constexpr std::size_t kMaxTriangles = 20'000'000;
 /// say. Its materials are not looked at. Normals that are missing are those of the faces, and
 /// tangents that are missing MikkTSpace's, as glTF asks. Coordinates: TEXCOORD_0.
 /// Throws Error{bad_input} with a sentence: not a GLB, truncated, a number that points outside of
-/// the file or is not finite, compressed (Draco, meshopt), sparse, no triangles, more than
-/// kMaxTriangles, no texture coordinates.
+/// the file or is not finite, compressed (Draco, meshopt), an extension it cannot do without that
+/// is not read, sparse, no triangles, none with an area, more than kMaxTriangles, no texture
+/// coordinates.
 Shape read_model(const std::filesystem::path& path);
 
 }  // namespace verdigris

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "verdigris/files/testing.h"
+#include "verdigris/render/settings.h"
 #include "verdigris/render/vector.h"
 
 namespace verdigris {
@@ -144,6 +145,35 @@ TEST_F(Model, DamageIsNamed) {
     quad = good;
     quad.extra = R"(,"extras":)" + std::string(100000, '[') + std::string(100000, ']');
     expect_refused(quad.bytes(), "nested too deep");
+}
+
+TEST_F(Model, WhatItCannotDoWithoutIsReadOrRefused) {
+    Quad quad;
+    const auto needs = [&](const std::string& name) {
+        quad.extra = R"(,"extensionsRequired":[")" + name + "\"]";
+        return quad.bytes();
+    };
+    expect_refused(needs("KHR_draco_mesh_compression"), "compressed (KHR_draco_mesh_compression)");
+    expect_refused(needs("EXT_meshopt_compression"), "compressed (EXT_meshopt_compression)");
+    expect_refused(needs("EXT_mesh_gpu_instancing"), "needs 'EXT_mesh_gpu_instancing'");
+    // Escape sequences of a terminal do not get through, nor a page of text.
+    expect_refused(needs("X\\u001b[31m" + std::string(5000, 'y')), "needs 'X?[31myyy");
+    for (const char* fine : {"KHR_mesh_quantization", "KHR_materials_clearcoat",
+                             "KHR_texture_basisu", "EXT_texture_webp"}) {
+        EXPECT_EQ(read(needs(fine)).triangles.size(), 2u) << fine;
+    }
+}
+
+TEST_F(Model, WithoutAreaOneSentence) {
+    Quad quad;
+    quad.node = R"({"mesh":0,"scale":[0,0,0]})";
+    expect_refused(quad.bytes(), "no triangle with an area");
+    quad.node = R"({"mesh":0,"scale":[1,0,0]})";
+    expect_refused(quad.bytes(), "no triangle with an area");
+    // However small: it is scaled to the same radius before it is looked at.
+    quad.node = R"({"mesh":0,"scale":[1e-30,1e-30,1e-30],"translation":[0,0,0]})";
+    const Setting small = make_setting(read(quad.bytes()));
+    for (const Vec3F& p : small.shape.positions) EXPECT_NEAR(length(p), 1, 1e-5f);
 }
 
 TEST_F(Model, StripsAndFansAreTriangles) {

@@ -2,6 +2,7 @@
 #include "verdigris/render/render.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -13,10 +14,13 @@
 namespace verdigris {
 namespace {
 
-constexpr int kTile = 16;             // pixels a side: about 1 ms of work
-constexpr int kTilesPerReport = 128;  // chosen: an interrupt is heard within a second
+constexpr int kTile = 16;  // pixels a side: about 1 ms of work
+constexpr int kMostTilesPerReport = 128;
+// chosen: an interrupt is heard within half a second, unless a single tile takes longer.
+constexpr std::chrono::milliseconds kLongReport{200};
 constexpr int kFirstSamples = 8;
 constexpr int kMostExtent = 16384;
+constexpr double kMostStops = 100, kWidestView = 170;
 
 void check(const RenderScene& scene, const RenderOptions& o) {
     const auto refuse = [](const char* sentence) { throw Error(ErrorCode::usage, sentence); };
@@ -31,6 +35,13 @@ void check(const RenderScene& scene, const RenderOptions& o) {
         refuse("the samples of a pixel are a power of two from 8 to 1048576");
     }
     if (!(o.tolerance >= 0)) refuse("a tolerance is 0 or more codes");
+    if (!(std::abs(o.exposure) <= kMostStops)) refuse("an exposure is -100 to 100 stops");
+    const Viewpoint& view = scene.view;
+    const float away = length(view.target - view.position);
+    if (!(away > 0 && std::isfinite(away)) || !(view.field_of_view > 0) ||
+        view.field_of_view > kWidestView) {
+        refuse("a view looks from one point at another, over more than 0 to 170 degrees");
+    }
     if (o.bounces < 0 || o.bounces > 64) refuse("light may bounce 0 to 64 times");
 }
 
@@ -41,7 +52,9 @@ struct Pinhole {
 
     Pinhole(const Viewpoint& view, int width, int height) : position(view.position) {
         forward = unit(view.target - view.position);
-        right = unit(cross(forward, {0, 1, 0}));
+        right = cross(forward, {0, 1, 0});
+        // Straight up or down any direction of the picture is as good: that of a map of the ground.
+        right = length(right) > 1e-4f ? unit(right) : unit(cross(forward, {0, 0, -1}));
         up = cross(right, forward);
         const int shorter = std::min(width, height);
         scale = float(2 * std::tan(view.field_of_view * double(kPi) / 360) / shorter);
@@ -66,8 +79,8 @@ struct PixelSum {
 };
 
 // About what the eye sees of it: codes of 255. Gamma 2 is near enough to sRGB for a threshold.
-float difference_in_codes(LinearF a, LinearF b) {
-    const LinearF x = pbr_neutral(a), y = pbr_neutral(b);
+float difference_in_codes(LinearF a, LinearF b, float gain) {
+    const LinearF x = pbr_neutral(a * gain), y = pbr_neutral(b * gain);
     const auto codes = [](float p, float q) { return std::abs(std::sqrt(p) - std::sqrt(q)) * 255; };
     return std::max({codes(x.r, y.r), codes(x.g, y.g), codes(x.b, y.b)});
 }
@@ -78,6 +91,7 @@ class Renderer {
         : scene_(scene),
           options_(options),
           pinhole_(scene.view, options.width, options.height),
+          gain_(float(std::exp2(options.exposure))),
           pixels_(options.width, options.height),
           columns_((options.width + kTile - 1) / kTile),
           rows_((options.height + kTile - 1) / kTile) {}
@@ -100,7 +114,7 @@ class Renderer {
                 // Both halves are stratified in themselves, and together better than either: what
                 // they differ by is no less than the error of their mean.
                 const LinearF more = mean_of(paths, x, y, p.samples, p.samples);
-                p.error = difference_in_codes(p.mean, more) / 2;
+                p.error = difference_in_codes(p.mean, more, gain_) / 2;
                 p.mean = mix(p.mean, more, 0.5f);
                 p.samples *= 2;
             }
@@ -183,6 +197,7 @@ class Renderer {
     const RenderScene& scene_;
     const RenderOptions& options_;
     Pinhole pinhole_;
+    float gain_;
     Image<PixelSum> pixels_;
     Mask wanted_;
     int columns_, rows_;
@@ -199,11 +214,18 @@ Rendering render(const RenderScene& scene, const RenderOptions& options, const P
     const std::int64_t total = std::int64_t(passes) * tiles;
     std::vector<std::int64_t> rays(std::size_t(tiles), 0);
     for (int pass = 0; pass == 0 || renderer.plan(); ++pass) {
-        for (int first = 0; first < tiles; first += kTilesPerReport) {
+        // How many tiles go together is a matter of time, and changes none of them.
+        int together = 2;
+        for (int first = 0; first < tiles;) {
             report(progress, "render", std::int64_t(pass) * tiles + first, total);
-            parallel_for(std::min(kTilesPerReport, tiles - first), [&](int i) {
-                rays[std::size_t(first + i)] += renderer.refine(first + i);
-            });
+            const auto start = std::chrono::steady_clock::now();
+            const int count = std::min(together, tiles - first);
+            parallel_for(
+                count, [&](int i) { rays[std::size_t(first + i)] += renderer.refine(first + i); });
+            first += count;
+            const auto spent = std::chrono::steady_clock::now() - start;
+            if (spent > kLongReport) together = std::max(together / 2, 2);
+            if (spent < kLongReport / 4) together = std::min(together * 2, kMostTilesPerReport);
         }
     }
     report(progress, "render", total, total);

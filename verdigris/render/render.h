@@ -16,10 +16,11 @@
 
 namespace verdigris {
 
-/// Where the picture is taken from. +Y is up in it.
+/// Where the picture is taken from. +Y is up in it, or -Z if it looks straight up or down.
 struct Viewpoint {
     Vec3F position{0, 0, 5}, target{};
-    double field_of_view = 26;  ///< of the picture's shorter side, degrees. chosen: as a 85 mm lens
+    double field_of_view = 26;  ///< of the picture's shorter side, degrees in (0, 170]. chosen: as
+                                ///< an 85 mm lens
 };
 
 /// What is seen where there is no object: it lights nothing. Brightest around the middle.
@@ -44,6 +45,7 @@ struct RenderOptions {
     /// deviation after tone mapping, is below this many codes of 255. The estimate is careful:
     /// what is left is about a third of it. 0: all of `most_samples`.
     double tolerance = 3;
+    double exposure = 0;     ///< stops it will be developed with; noise is judged so
     int most_samples = 256;  ///< rays of the camera per pixel; a power of two from 8 on
     int bounces = 3;         ///< from the object to itself, where it hides itself
     std::uint32_t seed = 0;
@@ -56,9 +58,10 @@ struct Rendering {
 };
 
 /// Path tracing with quasi-random samples and multiple importance sampling of lights and of the
-/// surface [VeachGuibas1995]. Unbiased but for light that comes over the object itself: `bounces`,
-/// and at most 10 a path, so that no single one shows. The same picture at any thread count.
-/// Throws Error{usage}: an option out of range, a scene without parts.
+/// surface [VeachGuibas1995]. Unbiased but for light that comes over the object itself (`bounces`,
+/// and at most 10 a path, so that no single one shows) and for stopping early where a pixel's own
+/// samples happen to agree. The same picture at any thread count.
+/// Throws Error{usage}: an option out of range, a scene without parts, a view from nowhere.
 /// Cost: docs/BENCHMARKS.md.
 Rendering render(const RenderScene& scene, const RenderOptions& options,
                  const Progress& progress = {});

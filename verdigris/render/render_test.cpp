@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "verdigris/files/testing.h"
 #include "verdigris/pixels/parallel_rows.h"
@@ -123,6 +124,12 @@ TEST(Render, ABumpLitFromTheRightOrFromAboveLooksRaised) {
     // Turned by a quarter of a half the frame turns with the plate.
     const Rendering turned = lit_from({5, 0, 1}, {0, 1, 0}, {0, 0, -1}, 0.3);
     EXPECT_GT(mean_of(turned, 22, 16, 28, 24), 1.2f * mean_of(turned, 12, 16, 18, 24));
+    // From behind a bump is a hollow: its far slope catches the light.
+    const double half = std::numbers::pi;
+    const Rendering behind = lit_from({5, 0, 1}, {0, 1, 0}, {0, 0, -1}, half);
+    EXPECT_GT(mean_of(behind, 12, 16, 18, 24), 1.3f * mean_of(behind, 22, 16, 28, 24));
+    const Rendering behind_above = lit_from({0, 5, 1}, {1, 0, 0}, {0, 0, 1}, half);
+    EXPECT_GT(mean_of(behind_above, 16, 22, 24, 28), 1.3f * mean_of(behind_above, 16, 12, 24, 18));
 }
 
 TEST(Render, TheFirstRowOfAMapIsAbove) {
@@ -202,6 +209,27 @@ TEST(Render, NoiseIsBelowTheToleranceThatWasAskedFor) {
     EXPECT_LT(quick.samples, slow.samples / 8);
 }
 
+TEST(Render, NoiseIsJudgedAsThePictureWillBeDeveloped) {
+    TestScene t(sphere_shape(), even_material({0.3f, 0.2f, 0.1f}, 0.5f, 1), studio_lighting());
+    t.view = make_setting(SceneKind::sphere, 1).view;
+    const auto samples = [&](double exposure) {
+        return render(t.scene(), {.width = 48, .height = 48, .exposure = exposure}).samples;
+    };
+    EXPECT_GT(double(samples(3)), 1.3 * double(samples(0)));
+    EXPECT_LE(samples(-6), samples(0));
+}
+
+TEST(Render, LooksStraightDownToo) {
+    TestScene t(plate_shape(1), even_material(gray(1), 1, 1), even_light(1));
+    t.view = {{0, 5, 0}, {}, 26};
+    RenderScene scene = t.scene();
+    scene.backdrop = {gray(0.5f), gray(0.5f)};
+    for (const LinearF& c : render(scene, {.width = 8, .height = 8}).light.pixels()) {
+        EXPECT_NEAR(c.g, 0.5f, 0.51f);  // a number; the plate is seen from its edge
+        EXPECT_TRUE(std::isfinite(c.g));
+    }
+}
+
 TEST(Render, NonsenseIsRefused) {
     TestScene t(plate_shape(1), even_material(gray(1), 1, 0), even_light(1));
     const auto code = [&](RenderOptions o, bool whole = true) {
@@ -214,7 +242,13 @@ TEST(Render, NonsenseIsRefused) {
     EXPECT_EQ(code({.most_samples = 100}), ErrorCode::usage);
     EXPECT_EQ(code({.tolerance = -1}), ErrorCode::usage);
     EXPECT_EQ(code({.bounces = -1}), ErrorCode::usage);
+    EXPECT_EQ(code({.exposure = std::nan("")}), ErrorCode::usage);
     EXPECT_EQ(code({}, false), ErrorCode::usage);
+    for (const Viewpoint& view : {Viewpoint{{1, 2, 3}, {1, 2, 3}, 26}, Viewpoint{{0, 0, 5}, {}, 0},
+                                  Viewpoint{{0, 0, 5}, {}, 180}}) {
+        t.view = view;
+        EXPECT_EQ(code({}), ErrorCode::usage);
+    }
     EXPECT_EQ(error_of([] { SurfaceMaps(Material{}); }).code(), ErrorCode::usage);
 }
 
@@ -225,6 +259,14 @@ TEST(Render, StopsWhenAsked) {
                [](std::string_view, std::int64_t, std::int64_t) { return false; });
     });
     EXPECT_EQ(error.code(), ErrorCode::interrupted);
+    // And not only before it begins: 64 tiles of one pass are no single step.
+    int asked = 0;
+    render(t.scene(), {.width = 128, .height = 128, .tolerance = 64, .most_samples = 8},
+           [&](std::string_view, std::int64_t, std::int64_t) {
+               ++asked;
+               return true;
+           });
+    EXPECT_GE(asked, 5);
 }
 
 }  // namespace

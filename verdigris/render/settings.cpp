@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -72,16 +73,24 @@ Setting make_setting(SceneKind kind, double width_over_height) {
 }
 
 Setting make_setting(Shape model) {
-    Vec3F low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
+    constexpr float kMost = std::numeric_limits<float>::max();
+    Vec3F low{kMost, kMost, kMost}, high{-kMost, -kMost, -kMost};
     for (const Vec3F& p : model.positions) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    const Vec3F middle = (low + high) * 0.5f;
-    float radius = 0;
-    for (const Vec3F& p : model.positions) radius = std::max(radius, length(p - middle));
-    const float scale = radius > 0 ? 1 / radius : 1;
-    for (Vec3F& p : model.positions) p = (p - middle) * scale;
+    // In double: the square of what a float can hold need not be one.
+    const double x = (double(low.x) + double(high.x)) / 2, y = (double(low.y) + double(high.y)) / 2,
+                 z = (double(low.z) + double(high.z)) / 2;
+    double radius = 0;
+    for (const Vec3F& p : model.positions) {
+        radius = std::max(radius, std::hypot(double(p.x) - x, double(p.y) - y, double(p.z) - z));
+    }
+    const double scale = radius > 0 ? 1 / radius : 1;
+    for (Vec3F& p : model.positions) {
+        p = {float((double(p.x) - x) * scale), float((double(p.y) - y) * scale),
+             float((double(p.z) - z) * scale)};
+    }
     return {std::move(model), {{0, 1.3f, 5.1f}, {0, 0, 0}, 26}, false, 0.4};
 }
 

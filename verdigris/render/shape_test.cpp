@@ -116,13 +116,19 @@ TEST(LargestRectangle, KnownMasks) {
     }
     for (int y = 0; y < 20; ++y) mask(150, y) = kInside;  // a wire that holds it
     const Rect r = largest_rectangle(mask, 300, 200);
-    EXPECT_NEAR(r.x, 90, 3);
-    EXPECT_NEAR(r.y, 20, 3);
-    EXPECT_NEAR(r.width, 170, 5);
-    EXPECT_NEAR(r.height, 160, 5);
+    EXPECT_NEAR(r.x, 93, 3);  // a rim of 3 and 2 pixels is left out
+    EXPECT_NEAR(r.y, 22, 3);
+    EXPECT_NEAR(r.width, 164, 5);
+    EXPECT_NEAR(r.height, 156, 5);
     for (int y = r.y; y < r.y + r.height; ++y) {
         for (int x = r.x; x < r.x + r.width; ++x) EXPECT_NE(mask(x, y), 0);
     }
+    for (const int x : {90, 91, 92, 257, 258, 259}) {  // its last columns are no specimen any more
+        for (int y = 0; y < 200; ++y) EXPECT_FALSE(x >= r.x && x < r.x + r.width) << x;
+    }
+    Mask full(300, 200);  // ends with the picture: nothing is cut off
+    std::ranges::fill(full.pixels(), kInside);
+    EXPECT_EQ(largest_rectangle(full, 300, 200), (Rect{0, 0, 300, 200}));
     mask(170, 100) = 0;  // a speck
     const Rect speck = largest_rectangle(mask, 300, 200);
     EXPECT_GT(speck.width * speck.height, 80 * 160);
