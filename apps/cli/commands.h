@@ -22,6 +22,7 @@ void add_characterize(CLI::App& app, Session& session);
 void add_drift(CLI::App& app, Session& session);
 void add_audit(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
+void add_reproduce(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
 
 }  // namespace verdigris::cli

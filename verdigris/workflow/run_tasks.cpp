@@ -168,6 +168,7 @@ class Workflow {
         outcome.wall_seconds = record->wall_seconds;
         outcome.cpu_seconds = record->cpu_seconds;
         outcome.threads = record->threads;
+        outcome.other_build = record->build != options_.build;
         end(i, TaskState::up_to_date);
         return true;
     }
@@ -196,6 +197,7 @@ class Workflow {
         TaskRecord record;
         record.command = task(i).arguments;
         record.version = options_.version;
+        record.build = options_.build;
         record.inputs = inputs_[i];
         record.threads = threads;
         record.wall_seconds = before;

@@ -31,6 +31,7 @@ struct TaskOutcome {
     double cpu_seconds = 0;
     int threads = 0;
     int exit_status = 0;
+    bool other_build = false;  ///< up to date, but of another WorkflowOptions::build
 };
 
 /// For whoever shows it: called several times a second.
@@ -47,7 +48,9 @@ struct WorkflowOptions {
     std::filesystem::path program;  ///< all tasks are command lines of it
     std::filesystem::path folder;   ///< where they run, absolute; records and logs in tasks/
     std::string version;            ///< of the program: another one does all tasks again
-    int cores = 1;                  ///< that all running tasks together may use
+    /// SHA-256 of the program: another one of the same version is only told (other_build).
+    std::string build = {};
+    int cores = 1;  ///< that all running tasks together may use
     /// Precedes the number of threads behind a task's arguments; empty: no task is told.
     std::string threads_option = "--threads";
     /// How long a task may take to end by itself once it was asked to.

@@ -72,6 +72,10 @@ TEST_F(RunTasks, DoesAgainWhatHasOtherArgumentsOrAnotherVersion) {
     tasks[2].arguments.push_back("--another");
     run(tasks);
     EXPECT_EQ(ran(), "beside");
+    // Built again it is the same version: told, and not done again.
+    options_.build = "built again";
+    EXPECT_EQ(run(tasks).at("beside"), TaskState::up_to_date);
+    EXPECT_TRUE(outcomes_[2].other_build);
     options_.version = "2";
     const auto again = run(tasks);
     EXPECT_TRUE(

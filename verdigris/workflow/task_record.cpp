@@ -70,6 +70,7 @@ std::optional<TaskRecord> read_record(const fs::path& folder, const Task& task) 
                                            : RecordState::begun;
         record.command = json.at("command").get<std::vector<std::string>>();
         record.version = json.at("version");
+        record.build = json.at("build");
         record.inputs = prints_from(json.at("inputs"));
         record.outputs = prints_from(json.at("outputs"));
         record.wall_seconds = json.at("wall_seconds");
@@ -91,6 +92,7 @@ void write_record(const fs::path& folder, const Task& task, const TaskRecord& re
                        {"state", text(record.state)},
                        {"command", record.command},
                        {"version", record.version},
+                       {"build", record.build},
                        {"inputs", json_of(record.inputs)},
                        {"outputs", json_of(record.outputs)},
                        {"wall_seconds", record.wall_seconds},

@@ -21,8 +21,9 @@ enum class RecordState {
 
 struct TaskRecord {
     RecordState state = RecordState::begun;
-    std::vector<std::string> command;                    ///< Task::arguments
-    std::string version;                                 ///< of the program
+    std::vector<std::string> command;  ///< Task::arguments
+    std::string version;               ///< of the program
+    std::string build = {};            ///< SHA-256 of the program: told, not compared
     std::map<std::string, Fingerprint> inputs, outputs;  ///< by path as the task has it
     double wall_seconds = 0;                             ///< of all runs that led here
     double cpu_seconds = 0;                              ///< of the last one
