@@ -60,7 +60,8 @@ ReproductionOptions options_of(const CLI::App& app, const Arguments& a) {
     if (!a.copper.empty()) options.copper = input_path(a.copper);
     options.quick = a.quick;
     options.no_networks = no_networks_because();
-    if (!app.get_subcommand_no_throw("judge-materials"))
+    const auto judges = [](const CLI::App* c) { return c->get_name() == "judge-materials"; };
+    if (app.get_subcommands(judges).empty())
         options.no_materials = "this build has no command judge-materials";
     return options;
 }
