@@ -31,7 +31,7 @@ const Resolved* gain_of(const std::vector<OursDrift>& ours, int d, const std::st
 }
 
 Table movement_table(const Reproduced& r, const std::vector<OursDrift>& ours) {
-    constexpr NumberFormat kValue{NumberStyle::fixed, 3, false};
+    constexpr NumberFormat kValue{NumberStyle::significant, 3, false};
     Table table;
     table.id = "figure4-movement";
     table.title = "Figure 4, left: specimen and reference";

@@ -40,8 +40,8 @@ TEST_F(ReproductionReport, StandsWithThePapersValuesWhereAllOfOursFailed) {
     EXPECT_NO_THROW(check_report(r));
     const std::string page = page_html(r, {});
     EXPECT_NE(page.find("no luck today"), std::string::npos);
-    for (const char* id : {"table1", "table2", "table3", "figure4-gains", "figure5", "training",
-                           "figures12", "intervals"}) {
+    for (const char* id : {"table1", "table1-horizons", "table2", "table3", "table3-lpips",
+                           "figure4-gains", "figure5", "training", "figures12", "intervals"}) {
         const Table& table = table_of(r, id);
         EXPECT_FALSE(table_plain(table).empty()) << id;
         EXPECT_NO_THROW(table_latex(table)) << id;
@@ -64,8 +64,9 @@ TEST_F(ReproductionReport, QuickIsSaidOnEveryTableThatItTouches) {
     options_.quick = true;
     const Report r = report();
     EXPECT_EQ(r.subtitle, "quick: not the paper's settings");
-    for (const char* id : {"table1", "table2", "table3", "figure4-gains", "figure4-movement",
-                           "figure5", "training", "figures12", "intervals"})
+    for (const char* id :
+         {"table1", "table1-horizons", "table2", "table3", "table3-lpips", "figure4-gains",
+          "figure4-movement", "figure5", "training", "figures12", "intervals"})
         EXPECT_NE(table_of(r, id).caption.find("not the paper's settings"), std::string::npos)
             << id;
 }
@@ -93,13 +94,15 @@ TEST_F(ReproductionReport, PutsOursInThePapersPlaces) {
     // chamber -> air is the paper's first block and our second direction.
     const TableRow& first = table.groups[0].rows[1];
     EXPECT_EQ(first[0].words(), "affinergb");
-    EXPECT_EQ(first[1].value(), 3.22e-5);
-    EXPECT_EQ(first[2].value(), 1);
-    EXPECT_EQ(first[4].value(), 5);
-    EXPECT_EQ(first[8].value(), 8);
-    EXPECT_EQ(first[9].value(), 0.134);
-    EXPECT_EQ(first[10].value(), -0.5);
-    EXPECT_EQ(table.groups[1].rows[1][10].value(), 0.25);
+    EXPECT_EQ(first[1].value(), 1.85e-4);
+    EXPECT_EQ(first[2].value(), 8);
+    EXPECT_EQ(first[3].value(), 0.134);
+    EXPECT_EQ(first[4].value(), -0.5);
+    EXPECT_EQ(table.groups[1].rows[1][4].value(), 0.25);
+    const Table by_horizon = table_of(report(), "table1-horizons");
+    EXPECT_EQ(by_horizon.groups[0].rows[1][1].value(), 3.22e-5);
+    EXPECT_EQ(by_horizon.groups[0].rows[1][2].value(), 1);
+    EXPECT_EQ(by_horizon.groups[0].rows[1][4].value(), 5);
 }
 
 TEST_F(ReproductionReport, ReadsMaterialsAndSaysWhyThereIsNoLpips) {
@@ -121,7 +124,8 @@ TEST_F(ReproductionReport, ReadsMaterialsAndSaysWhyThereIsNoLpips) {
     const TableRow& affine = table.groups[0].rows[0];
     EXPECT_EQ(affine[1].value(), 0.253);
     EXPECT_EQ(affine[2].value(), 0.25);
-    EXPECT_EQ(affine[4].kind(), TableCell::Kind::missing);
+    EXPECT_EQ(affine[4].kind(), TableCell::Kind::missing) << "no t+10";
+    EXPECT_EQ(table_of(report(), "table3-lpips").groups[0].rows[0][1].value(), 0.208);
     EXPECT_EQ(table.groups[0].rows[2][2].value(), 0.5) << "the static control";
     // A version of the command that writes something else is told, not guessed at.
     write_file(folder_ / "materials/materials.json", "{\"directions\": []}");

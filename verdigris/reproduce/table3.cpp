@@ -29,29 +29,29 @@ double value_at(const std::map<int, double>& values, int horizon) {
     return found == values.end() ? std::nan("") : found->second;
 }
 
-void add_row(RowGroup& group, const std::string& title, const std::string& paper_row,
-             const OursMaterial* ours) {
+void add_row(RowGroup& group, const std::string& what, const std::string& title,
+             const std::string& paper_row, const OursMaterial* ours) {
     TableRow row{TableCell(title)};
     for (const int h : kHorizons) {
-        for (const std::string what : {"flip", "lpips"}) {
-            row.push_back(paper_row.empty()
-                              ? not_printed()
-                              : paper_cell(paper_value("table3", kNoDirection, paper_row,
-                                                       fmt::format("{}{}", what, h))));
-            row.push_back(
-                ours ? finite_or_missing(value_at(what == "flip" ? ours->flip : ours->lpips, h))
-                     : TableCell());
-        }
+        row.push_back(paper_row.empty() ? not_printed()
+                                        : paper_cell(paper_value("table3", kNoDirection, paper_row,
+                                                                 fmt::format("{}{}", what, h))));
+        row.push_back(
+            ours ? finite_or_missing(value_at(what == "flip" ? ours->flip : ours->lpips, h))
+                 : TableCell());
     }
     group.rows.push_back(std::move(row));
 }
 
-Table distances(const Reproduced& r, const OursMaterials* ours) {
+/// `what`: "flip" or "lpips".
+Table distances(const Reproduced& r, const OursMaterials* ours, const std::string& what) {
+    const std::string head = what == "flip" ? "FLIP" : "LPIPS";
     Table table;
-    table.id = "table3";
-    table.title = "Table 3: rendered materials";
+    table.id = what == "flip" ? "table3" : "table3-lpips";
+    table.title = "Table 3: rendered materials, " + head;
     table.caption =
-        "FLIP and LPIPS between pictures of the forecast's material and of the true future "
+        head +
+        " between pictures of the forecast's material and of the true future "
         "frame's, lower is closer. The paper does not say of which direction its table is; ours "
         "are both. Geometry, light and field of view are not the paper's, which it does not "
         "print." +
@@ -61,27 +61,24 @@ Table distances(const Reproduced& r, const OursMaterials* ours) {
     table.group_header = "direction of ours";
     table.columns = {{"source", "Texture source", Align::left}};
     for (const int h : kHorizons) {
-        for (const auto& [what, head] : {std::pair("flip", "FLIP"), std::pair("lpips", "LPIPS")}) {
-            table.columns.push_back({fmt::format("{}{}_paper", what, h),
-                                     fmt::format("{} +{}, paper", head, h), Align::right,
-                                     kDistance});
-            table.columns.push_back(
-                {fmt::format("{}{}_ours", what, h), "ours", Align::right, kDistance});
-        }
+        table.columns.push_back({fmt::format("{}{}_paper", what, h), fmt::format("+{}, paper", h),
+                                 Align::right, kDistance});
+        table.columns.push_back(
+            {fmt::format("{}{}_ours", what, h), "ours", Align::right, kDistance});
     }
     for (const int d : {kChamberToAir, kAirToChamber}) {
         RowGroup group{r.direction(d), {}};
         const auto of = [&](const std::string& name) {
             return ours ? find(*ours, d, name) : nullptr;
         };
-        add_row(group, "affinergb", "affinergb", of("affinergb"));
-        add_row(group, "patinanet", "patinanet", of("patinanet"));
-        add_row(group, "static control (last frame held)", "control",
+        add_row(group, what, "affinergb", "affinergb", of("affinergb"));
+        add_row(group, what, "patinanet", "patinanet", of("patinanet"));
+        add_row(group, what, "static control (last frame held)", "control",
                 ours ? of(ours->control) : nullptr);
         if (ours)
             for (const OursMaterial& m : ours->forecasters[std::size_t(d)])
                 if (m.name != "affinergb" && m.name != "patinanet" && m.name != ours->control)
-                    add_row(group, m.name, "", &m);
+                    add_row(group, what, m.name, "", &m);
         table.groups.push_back(std::move(group));
     }
     return table;
@@ -118,7 +115,8 @@ ReportSection table3_section(const Reproduced& r) {
     const auto ours = ours_or_reason(r, "materials", read_ours_materials, problems);
     if (ours) section.blocks.push_back(sentences(r, *ours));
     add_problems(problems, section);
-    section.blocks.push_back(distances(r, ours ? &*ours : nullptr));
+    for (const char* what : {"flip", "lpips"})
+        section.blocks.push_back(distances(r, ours ? &*ours : nullptr, what));
     add_commands(r, {"materials"}, section);
     return section;
 }
