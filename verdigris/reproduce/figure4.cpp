@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "verdigris/error.h"
@@ -48,9 +49,13 @@ Table movement_table(const Reproduced& r, const std::vector<OursDrift>& ours) {
             std::size_t(1 - d) < ours.size() ? &ours[std::size_t(1 - d)] : nullptr;
         RowGroup group{fmt::format("{}; ours {}", judged_on(d), r.recording(1 - d)), {}};
         const auto row = [&](const char* title, const char* column, std::optional<double> value) {
-            group.rows.push_back({TableCell(title),
-                                  paper_cell(paper_value("figure4", d, "recording", column)),
-                                  cell_or_missing(value)});
+            // Its own digits: 0.001 is not 0.00100.
+            TableCell paper = not_printed();
+            for (const PaperValue& v : paper_values())
+                if (std::string_view(v.item) == "figure4" && v.direction == d &&
+                    std::string_view(v.row) == "recording" && std::string_view(v.column) == column)
+                    paper = TableCell(v.printed);
+            group.rows.push_back({TableCell(title), paper, cell_or_missing(value)});
         };
         row("specimen", "specimen", mine ? mine->specimen : std::nullopt);
         row("reference", "reference", mine ? mine->reference : std::nullopt);
