@@ -23,6 +23,7 @@ void add_drift(CLI::App& app, Session& session);
 void add_judge_materials(CLI::App& app, Session& session);
 void add_audit(CLI::App& app, Session& session);
 void add_compare(CLI::App& app, Session& session);
+void add_reproduce(CLI::App& app, Session& session);
 void add_doctor(CLI::App& app, Session& session);
 
 }  // namespace verdigris::cli

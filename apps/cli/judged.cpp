@@ -220,7 +220,8 @@ void check_results_folder(const fs::path& output, const char* mark, bool force) 
     const bool ours = fs::is_regular_file(output / mark, error);
     for (const auto& [other, command] :
          {std::pair(kEvaluationFile, "evaluate"), std::pair(kCharacterizationFile, "characterize"),
-          std::pair(kDriftFile, "drift"), std::pair(kMaterialsFile, "judge-materials")}) {
+          std::pair(kDriftFile, "drift"), std::pair(kMaterialsFile, "judge-materials"),
+          std::pair(kReproductionFile, "reproduce")}) {
         if (other == std::string_view(mark) || !fs::is_regular_file(output / other, error))
             continue;
         // Not even --force: of two results in one folder neither would be whole.

@@ -62,6 +62,8 @@ inline constexpr const char* kCharacterizationFile = "characterization.json";
 inline constexpr const char* kDriftFile = "drift.json";
 inline constexpr const char* kMaterialsFile = "materials.json";
 inline constexpr const char* kRendersFolder = "renders";
+/// In a folder of `reproduce` from its first moment on; what was asked for.
+inline constexpr const char* kReproductionFile = "reproduction.json";
 inline constexpr const char* kDriftMapsFile = "drift_gains.csv";
 
 /// A folder belongs to the command whose `mark` (kEvaluationFile ...) is in it, and is replaced by

@@ -22,6 +22,9 @@ bool is_checkpoint(const std::string& name);
 /// train, susceptibility. In a build without libtorch they are refused with a sentence.
 void add_learned_commands(CLI::App& app, Session& session);
 
+/// Why this build has no networks, as a sentence; empty where it has.
+std::string no_networks_because();
+
 /// Reads them: what is wrong with one is told before anything else is done.
 void check_checkpoints(const std::vector<std::string>& paths);
 /// Checkpoints as entrants of an evaluation. Throws as read_checkpoint and checkpoint_entrants.

@@ -7,10 +7,12 @@
 namespace verdigris::cli {
 namespace {
 
+constexpr const char* kAbsent =
+    "this build has no trained forecasters; `scripts/build_learn.sh` makes one that has (it "
+    "installs libtorch, 550 MB)";
+
 [[noreturn]] void absent() {
-    throw Error(ErrorCode::usage,
-                "this build has no trained forecasters; `scripts/build_learn.sh` makes one that "
-                "has (it installs libtorch, 550 MB)");
+    throw Error(ErrorCode::usage, kAbsent);
 }
 
 void add(CLI::App& app, Session& session, const char* name, const char* what) {
@@ -31,6 +33,10 @@ void add_learned_commands(CLI::App& app, Session& session) {
     add(app, session, "susceptibility",
         "What a network believes of a surface (needs a build with libtorch)");
     add(app, session, "study", "Studies of networks (needs a build with libtorch)");
+}
+
+std::string no_networks_because() {
+    return kAbsent;
 }
 
 void check_checkpoints(const std::vector<std::string>& paths) {

@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
     cli::add_audit(app, session);
     cli::add_compare(app, session);
     cli::add_learned_commands(app, session);
+    cli::add_reproduce(app, session);
     cli::add_doctor(app, session);
     try {
         app.parse(argc, argv);

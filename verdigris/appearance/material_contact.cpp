@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "verdigris/color/magma.h"
 #include "verdigris/deliver/sheet_canvas.h"
 #include "verdigris/deliver/text_wrap.h"
 #include "verdigris/deliver/visible_change.h"

@@ -119,7 +119,7 @@ TEST(JudgeMaterials, EveryWindowServesAllHorizonsAndBlocksAreAsLongAsTheirHorizo
     const MaterialJudgment j = judged(testing::two_agings(), options);
     for (const MaterialDirection& d : j.directions) {
         EXPECT_EQ(d.starts, (std::vector<int>{0, 39, 79}));
-        EXPECT_EQ(d.shown, (Rect{12, 0, 12, 16}));  // the specimen
+        EXPECT_EQ(d.shown, (Rect{13, 0, 11, 16}));  // the specimen less its rim
         ASSERT_EQ(d.examples.size(), 2u);
         EXPECT_EQ(d.examples[0].start, 39);
     }

@@ -6,6 +6,7 @@
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/base64.h"
 #include "verdigris/files/csv.h"
+#include "verdigris/files/folder_lock.h"
 #include "verdigris/files/image_file.h"
 #include "verdigris/files/npy.h"
 #include "verdigris/files/png.h"

@@ -18,6 +18,7 @@
 
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
+#include "verdigris/files/folder_lock.h"
 #include "verdigris/learn/augment.h"
 #include "verdigris/learn/network_parts.h"
 #include "verdigris/learn/training_set.h"
@@ -78,7 +79,7 @@ class Trainer {
     }
 
     TrainedNetwork run(const EpochDone& epoch_done) {
-        const FolderLock lock(folder_);
+        const FolderLock lock(folder_, "trained into");
         resume_or_begin();
         for (int epoch = int(epochs_.size()) + 1; epoch <= options_.epochs; ++epoch) {
             const auto start = std::chrono::steady_clock::now();

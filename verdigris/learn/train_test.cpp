@@ -12,6 +12,7 @@
 
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
+#include "verdigris/files/folder_lock.h"
 #include "verdigris/files/safetensors.h"
 #include "verdigris/learn/network_parts.h"
 #include "verdigris/learn/testing.h"
@@ -202,7 +203,7 @@ TEST(TrainingRun, AFolderIsOneProcesss) {
     const ScratchFolder folder;
     const TrainOptions options = quick_options(NetworkKind::patinanet, 1);
     {
-        const FolderLock other(folder / "run");
+        const FolderLock other(folder / "run", "trained into");
         EXPECT_NE(refusal([&] {
                       train_network(protocol, source, options, folder / "run");
                   }).find("by another process"),

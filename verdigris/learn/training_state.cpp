@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/learn/training_state.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <torch/version.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -157,19 +153,6 @@ std::vector<std::string> differing_options(const TrainingFacts& a, const Trainin
     add(a.augment != b.augment, "--no-augment");
     add(a.torch != b.torch, "the version of libtorch");
     return list;
-}
-
-FolderLock::FolderLock(const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
-    descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-        return;
-    ::close(descriptor_);
-    throw Error(ErrorCode::refused,
-                "is being trained into by another process; choose another folder", folder.string());
-}
-FolderLock::~FolderLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 std::string metrics_text(const std::vector<EpochRecord>& epochs) {

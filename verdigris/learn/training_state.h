@@ -36,19 +36,6 @@ TrainingState read_training_state(const std::filesystem::path& path, const Netwo
 /// What of two runs differs, as the command line calls it; epoch, errors and version do not count.
 std::vector<std::string> differing_options(const TrainingFacts& a, const TrainingFacts& b);
 
-/// Makes the folder of a run and keeps it for one process; gone with the process, however it ends.
-/// Throws Error{refused} where another one has it. File systems without locks let everybody in.
-class FolderLock {
-  public:
-    explicit FolderLock(const std::filesystem::path& folder);
-    ~FolderLock();
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-
-  private:
-    int descriptor_;
-};
-
 /// metrics.jsonl as a whole, a line per epoch.
 std::string metrics_text(const std::vector<EpochRecord>& epochs);
 
