@@ -41,6 +41,8 @@ std::vector<std::pair<std::string, Image<SrgbU8>>> contacts(const MaterialJudgme
     for (std::size_t h = 0; h < judgment.options.horizons.size(); ++h)
         sheets.emplace_back(fmt::format("u{:03}.png", judgment.options.horizons[h]),
                             draw_material_contact(judgment, h));
+    for (std::size_t d = 0; d < judgment.directions.size(); ++d)
+        sheets.emplace_back(fmt::format("frames-{}.png", d + 1), draw_frame_sheet(judgment, d));
     return sheets;
 }
 

@@ -12,7 +12,7 @@ few=("${small[@]}" --windows 3)
 "$verdigris" judge-materials "${two[@]}" "${few[@]}" -o "$scratch/jm" --horizons 20,2 --json \
   --forecasters affinergb,affinergb-clamped,affinergb-in-range,affinergb-ridge,bandtrend,auto \
   >"$scratch/jm.json" 2>"$scratch/stderr" || fail "judge-materials failed: $(cat "$scratch/stderr")"
-for f in SHA256SUMS report.html protocol.toml record.json materials.json renders/u002.png renders/u020.png \
+for f in SHA256SUMS report.html protocol.toml record.json materials.json renders/u002.png renders/u020.png renders/frames-1.png renders/frames-2.png \
   tables/materials.csv tables/materials.json tables/materials.tex tables/materials-measures.json \
   tables/materials-limits.csv tables/materials-blocks.csv tables/windows_materials.csv; do
   [ -s "$scratch/jm/$f" ] || fail "$f is missing"

@@ -3,6 +3,7 @@
 // Path: evaluate, material, render, metrics -> [appearance].   Model: docs/PROTOCOL.md
 #pragma once
 
+#include "verdigris/appearance/frame_sheet.h"
 #include "verdigris/appearance/material_contact.h"
 #include "verdigris/appearance/material_judgment.h"
 #include "verdigris/appearance/material_report.h"

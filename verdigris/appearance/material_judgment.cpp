@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "verdigris/color/convert.h"
+#include "verdigris/deliver/visible_change.h"
 #include "verdigris/error.h"
 #include "verdigris/evaluate/characterize.h"
 #include "verdigris/metrics/pixel_errors.h"
@@ -178,17 +179,23 @@ class DirectionJudge {
             if (options_.lpips) put(s.lpips, h, options_.lpips(real, pictures[i]));
         }
         put(out_.truth_moved, h, frame_motion(truth, truth, last, out_.shown).moved);
-        if (keep) keep_example(w, horizon, pictures, compared);
+        if (keep) keep_example(w, horizon, frames, pictures, compared);
     }
 
-    void keep_example(const ScoredWindow& w, int horizon, const std::vector<Image<SrgbF>>& pictures,
-                      std::vector<Compared>& compared) {
+    void keep_example(const ScoredWindow& w, int horizon, const std::vector<Image<SrgbF>>& frames,
+                      const std::vector<Image<SrgbF>>& pictures, std::vector<Compared>& compared) {
+        const Image<SrgbF>& last = w.context.frames.back();
+        const auto example = [&](const Image<SrgbF>& frame) {
+            return ExampleFrame{rounded(frame), change_between(last, frame)};
+        };
         MaterialExample e;
         e.start = w.start;
         e.horizon = horizon;
+        e.last = rounded(last);
+        e.true_frame = example(frames.back());
         e.truth = rounded(pictures.back());
         for (std::size_t i = 0; i < compared.size(); ++i)
-            e.rows.push_back({out_.rows[i].name, rounded(pictures[i]),
+            e.rows.push_back({out_.rows[i].name, example(frames[i]), rounded(pictures[i]),
                               std::move(compared[i].flip.map), compared[i].flip.mean});
         out_.examples.push_back(std::move(e));
     }

@@ -46,15 +46,22 @@ struct MaterialScores {
 };
 
 /// What to look at: one window.
+struct ExampleFrame {
+    Image<SrgbU8> picture;
+    Image<float> change;  ///< per pixel, mean |frame - last observed| of the channels
+};
 struct ExampleRow {
     std::string name;
-    Image<SrgbU8> picture;  ///< empty for the truth's own row
+    ExampleFrame frame;     ///< of the forecast, clamped as it is written
+    Image<SrgbU8> picture;  ///< of the material
     Image<float> flip;
     double mean = 0;  ///< of `flip`
 };
 struct MaterialExample {
     int start = 0, horizon = 0;
-    Image<SrgbU8> truth;
+    Image<SrgbU8> last;  ///< the last observed frame
+    ExampleFrame true_frame;
+    Image<SrgbU8> truth;           ///< the picture of its material
     std::vector<ExampleRow> rows;  ///< in the order of MaterialDirection::rows
 };
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "verdigris/appearance/frame_sheet.h"
 #include "verdigris/appearance/material_contact.h"
 #include "verdigris/appearance/material_report.h"
 #include "verdigris/appearance/testing.h"
@@ -163,23 +164,46 @@ TEST(JudgeMaterials, RefusesInASentence) {
         << says({2, 16});
 }
 
+/// Is `tile`, each pixel `zoom` times, what `sheet` shows there?
+bool shows(const Image<SrgbU8>& sheet, const Image<SrgbU8>& tile, int x0, int y0, int zoom) {
+    for (int y = 0; y < tile.height() * zoom; ++y)
+        for (int x = 0; x < tile.width() * zoom; ++x)
+            if (!(sheet(x0 + x, y0 + y) == tile(x / zoom, y / zoom))) return false;
+    return true;
+}
+
 TEST(JudgeMaterials, TheSheetHasEveryForecasterBesideTheTruth) {
     const MaterialJudgment j = judged(testing::two_agings(), small_options());
     const Image<SrgbU8> sheet = draw_material_contact(j, 1);
-    // Two directions of three tiles, six rows.
-    EXPECT_EQ(sheet.width(), 2 * 28 + 2 * (3 * 48 + 16) + 40);
+    // Two directions of three tiles, six rows; 48 pixels are too few for words below, so each is
+    // three wide.
+    EXPECT_EQ(sheet.width(), 2 * 28 + 2 * (3 * 144 + 16) + 40);
     const MaterialExample& e = j.directions[0].examples[1];
-    const auto holds = [&](const Image<SrgbU8>& tile, int x0, int y0) {
-        for (int y = 0; y < tile.height(); ++y)
-            for (int x = 0; x < tile.width(); ++x)
-                if (!(sheet(x0 + x, y0 + y) == tile(x, y))) return false;
-        return true;
-    };
-    EXPECT_TRUE(holds(e.rows[0].picture, 28, 118));
-    EXPECT_TRUE(holds(e.truth, 28 + 56, 118));
-    EXPECT_TRUE(holds(e.rows[4].picture, 28, 118 + 4 * 82));
-    EXPECT_TRUE(holds(e.truth, 28, 118 + 4 * 82));  // of the perfect one they are the same
+    EXPECT_TRUE(shows(sheet, e.rows[0].picture, 28, 118, 3));
+    EXPECT_TRUE(shows(sheet, e.truth, 28 + 152, 118, 3));
+    EXPECT_TRUE(shows(sheet, e.rows[4].picture, 28, 118 + 4 * 178, 3));
+    EXPECT_TRUE(shows(sheet, e.truth, 28, 118 + 4 * 178, 3));  // of the perfect one they are equal
     EXPECT_THROW(draw_material_contact(j, 2), Error);
+}
+
+TEST(JudgeMaterials, TheFramesOfAWindowStandBelowTheTrueOnes) {
+    const MaterialJudgment j = judged(testing::two_agings(), small_options());
+    const MaterialDirection& d = j.directions[1];
+    const Image<SrgbU8> sheet = draw_frame_sheet(j, 1);
+    const MaterialExample& e = d.examples[1];
+    const int zoom = (128 + e.last.width() - 1) / e.last.width();
+    const int wide = e.last.width() * zoom + 8, high = 2 * e.last.height() * zoom + 2 + 26 + 8;
+    EXPECT_TRUE(shows(sheet, e.last, 28, 118, zoom));
+    EXPECT_TRUE(shows(sheet, e.true_frame.picture, 28 + 2 * wide, 118, zoom));
+    for (std::size_t i = 0; i + 3 < e.rows.size(); ++i)
+        EXPECT_TRUE(
+            shows(sheet, e.rows[3 + i].frame.picture, 28 + 2 * wide, 118 + int(i + 1) * high, zoom))
+            << e.rows[3 + i].name;
+    // What is perfect has moved as far as the truth, and holding still not at all.
+    EXPECT_TRUE(std::ranges::equal(e.rows[4].frame.change.pixels(), e.true_frame.change.pixels()));
+    EXPECT_GT(std::ranges::max(e.true_frame.change.pixels()), 0.01f);
+    EXPECT_EQ(std::ranges::max(e.rows[0].frame.change.pixels()), 0);
+    EXPECT_THROW(draw_frame_sheet(j, 2), Error);
 }
 
 }  // namespace

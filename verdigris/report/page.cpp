@@ -20,8 +20,9 @@
 namespace verdigris {
 namespace {
 
-std::string data_uri(const std::string& svg) {
-    return "data:image/svg+xml;base64," + base64(std::as_bytes(std::span(svg.data(), svg.size())));
+std::string data_uri(const char* kind, const std::string& bytes) {
+    return fmt::format("data:image/{};base64,{}", kind,
+                       base64(std::as_bytes(std::span(bytes.data(), bytes.size()))));
 }
 
 std::string files_line(const std::string& folder, const std::string& id,
@@ -78,7 +79,7 @@ class BodyWriter {
         if (drawn) {
             out += fmt::format("<img class=\"drawing\" alt=\"{}\" src=\"{}\">\n",
                                html_text(one_line(block.title + ". " + block.caption)),
-                               data_uri(drawing->second));
+                               data_uri("svg+xml", drawing->second));
         } else if (!interactive_) {
             out +=
                 "<p class=\"callout info\">This figure was not drawn: gnuplot was missing.</p>\n";
@@ -87,6 +88,17 @@ class BodyWriter {
         if (options_.links && drawn) {
             out += files_line("figures", block.id, {{"SVG", "svg"}, {"PNG", "png"}});
         }
+        return out + "</section>\n";
+    }
+
+    std::string operator()(const Picture& block) const {
+        std::string out = fmt::format(
+            "<section id=\"{}-block\">\n<h3>{}</h3>\n<figure class=\"picture\">\n"
+            "<img alt=\"{}\" src=\"{}\">\n<figcaption>{}</figcaption>\n</figure>\n",
+            block.id, html_text(block.title),
+            html_text(one_line(block.title + ". " + block.caption)), data_uri("png", block.png),
+            html_text(block.caption));
+        if (options_.links) out += files_line("figures", block.id, {{"PNG", "png"}});
         return out + "</section>\n";
     }
 
@@ -108,6 +120,8 @@ std::string contents(const Report& report) {
                 inner += "<li>" + entry(table->id + "-block", table->title) + "</li>\n";
             } else if (const auto* figure = std::get_if<Figure>(&block)) {
                 inner += "<li>" + entry(figure->id + "-block", figure->title) + "</li>\n";
+            } else if (const auto* picture = std::get_if<Picture>(&block)) {
+                inner += "<li>" + entry(picture->id + "-block", picture->title) + "</li>\n";
             }
         }
         if (!inner.empty()) out += "\n<ol>\n" + inner + "</ol>\n";
@@ -183,6 +197,9 @@ void check_report(const Report& report) {
                 claim(figure->id);
                 claim(figure->id + "-block");
                 claim("figure-" + figure->id);
+            } else if (const auto* picture = std::get_if<Picture>(&block)) {
+                claim(picture->id);
+                claim(picture->id + "-block");
             }
         }
     }

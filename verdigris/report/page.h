@@ -23,8 +23,15 @@ struct BulletList {
     std::vector<std::string> items;
 };
 
+/// A picture that is no drawing: frames, renders, maps.
+struct Picture {
+    std::string id;  ///< as a figure's
+    std::string title, caption;
+    std::string png;  ///< the bytes of a PNG file
+};
+
 /// A Status is shown as a callout with its severity in words.
-using ReportBlock = std::variant<Paragraph, BulletList, Status, Table, Figure>;
+using ReportBlock = std::variant<Paragraph, BulletList, Status, Table, Figure, Picture>;
 
 struct ReportSection {
     std::string id;  ///< of the heading: letters, digits, "-", "_"; unique

@@ -23,7 +23,8 @@ Report small_report() {
             {{"verdict",
               "Verdict",
               {Paragraph{"<script>alert(1)</script> @@VERDIGRIS_DATA@@"}, BulletList{{"one"}},
-               Status{"few", Severity::caution, "Only 3 windows."}, table, simple_figure()}}},
+               Status{"few", Severity::caution, "Only 3 windows."}, table, simple_figure(),
+               Picture{"seen", "A <picture>", "What it shows", "\x89PNG"}}}},
             "made by hand"};
 }
 
@@ -44,6 +45,8 @@ TEST(Page, HoldsItsPartsAndNoMarkupOfTheirs) {
         EXPECT_TRUE(holds(html, "<a href=\"#verdict\">Verdict</a>"));
         EXPECT_TRUE(holds(html, "<a href=\"#simple-block\">A simple figure</a>"));
         EXPECT_TRUE(holds(html, "data:image/svg+xml;base64,PHN2Zy8+"));
+        EXPECT_TRUE(holds(html, "<a href=\"#seen-block\">A &lt;picture&gt;</a>"));
+        EXPECT_TRUE(holds(html, "data:image/png;base64,iVBORw=="));
         EXPECT_FALSE(holds(html, "href=\"tables/"));
         EXPECT_FALSE(holds(html, "@@STYLE@@"));
     }

@@ -50,6 +50,7 @@ class ResultsWriter {
         text(stem + ".png", draw_figure(given, FigureFormat::png));
         drawings_[given.id] = std::move(svg);
     }
+    void picture(const Picture& given) { text("figures/" + given.id + ".png", given.png); }
     WrittenResults page(const Report& report, bool has_figures) {
         step();
         if (has_figures && !gnuplot_) {
@@ -104,11 +105,13 @@ WrittenResults write_results(const Report& report, const fs::path& folder,
     check_report(report);
     std::vector<const Table*> tables;
     std::vector<const Figure*> figures;
+    std::vector<const Picture*> pictures;
     std::set<std::string> names;
     for (const ReportSection& section : report.sections) {
         for (const ReportBlock& block : section.blocks) {
             if (const auto* table = std::get_if<Table>(&block)) tables.push_back(table);
             if (const auto* figure = std::get_if<Figure>(&block)) figures.push_back(figure);
+            if (const auto* picture = std::get_if<Picture>(&block)) pictures.push_back(picture);
         }
     }
     for (const Table* table : tables) names.insert(table->id);
@@ -123,6 +126,7 @@ WrittenResults write_results(const Report& report, const fs::path& folder,
     for (const Table* table : tables) writer.table(*table, true);
     for (const Table& table : data_tables) writer.table(table, false);
     for (const Figure* figure : figures) writer.figure(*figure);
+    for (const Picture* picture : pictures) writer.picture(*picture);
     return writer.page(report, !figures.empty());
 }
 

@@ -25,6 +25,7 @@ struct WrittenResults {
 /// Writes into `folder` (a StagedFolder's path(): then all of it appears at once, or nothing)
 ///   tables/<id>.csv, .json, .tex   each table of the report, in its order
 ///   figures/<id>.svg, .png         each figure; none without gnuplot, with a Status saying so
+///   figures/<id>.png               each picture
 ///   report.html                    with the statuses above shown at its top
 /// `data_tables` are written as CSV only and not shown: per-window errors, for recomputing.
 /// Same report, same bytes, given the same gnuplot. Progress stage: "report".

@@ -78,13 +78,17 @@ ReportSection figure5_section(const Reproduced& r) {
                                                  ours[i]->change[1].r, ours[i]->change[1].error));
     }
     if (!list.items.empty()) {
-        list.items.push_back(
-            "The maps themselves are in susceptibility-first/maps.png and "
-            "susceptibility-second/maps.png.");
         section.blocks.push_back(std::move(list));
     }
     add_problems(problems, section);
     section.blocks.push_back(std::move(table));
+    for (int i = 0; i < 2; ++i)
+        add_picture(r, ids[std::size_t(i)], "maps.png",
+                    {fmt::format("figure5-maps-{}", i + 1),
+                     fmt::format("Susceptibility as patinanet of {} has it", r.recording(i)),
+                     "Means over windows, beside where each specimen really changed." + r.caution(),
+                     {}},
+                    section);
     add_commands(r, ids, section);
     return section;
 }

@@ -127,6 +127,13 @@ TEST_F(ReproductionReport, ReadsMaterialsAndSaysWhyThereIsNoLpips) {
     EXPECT_EQ(affine[4].kind(), TableCell::Kind::missing) << "no t+10";
     EXPECT_EQ(table_of(report(), "table3-lpips").groups[0].rows[0][1].value(), 0.208);
     EXPECT_EQ(table.groups[0].rows[2][2].value(), 0.5) << "the static control";
+    // Recording 1 is held out second: its frames are Figure 1.
+    write_file(folder_ / "materials/renders/frames-2.png", "\x89PNG");
+    const std::string page = page_html(report(), {});
+    EXPECT_NE(page.find("<h3>Figure 1: forecast and true frames"), std::string::npos);
+    EXPECT_NE(page.find("src=\"data:image/png;base64,iVBORw==\""), std::string::npos);
+    EXPECT_NE(page.find("Figure 2: forecast and true frames, air -&gt; chamber: n/a, "),
+              std::string::npos);
     // A version of the command that writes something else is told, not guessed at.
     write_file(folder_ / "materials/materials.json", "{\"directions\": []}");
     EXPECT_NE(page_html(report(), {}).find("materials.json: is not what this version writes"),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <utility>
 
+#include "verdigris/error.h"
+#include "verdigris/files/atomic_file.h"
 #include "verdigris/reproduce/sections.h"
 
 namespace verdigris {
@@ -18,6 +20,19 @@ void add_commands(const Reproduced& r, const std::vector<std::string>& ids,
 void add_problems(const std::vector<std::string>& problems, ReportSection& section) {
     for (const std::string& problem : problems)
         section.blocks.push_back(Status{"not_available", Severity::caution, problem});
+}
+
+void add_picture(const Reproduced& r, const std::string& task, const std::filesystem::path& file,
+                 Picture picture, ReportSection& section) {
+    if (!r.has(task)) return;  // why is said where its numbers would stand
+    constexpr std::size_t kMostBytes = std::size_t(1) << 26;
+    try {
+        picture.png = read_text(r.folder / r.task(task)->outputs.front() / file, kMostBytes);
+    } catch (const Error& e) {
+        add_problems({picture.title + ": n/a, " + std::string(e.what()) + "."}, section);
+        return;
+    }
+    section.blocks.push_back(std::move(picture));
 }
 
 TableCell not_printed() {

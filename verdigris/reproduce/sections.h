@@ -3,6 +3,7 @@
 // the reason where ours could not be made; none throws for a result that is missing.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,9 @@ auto ours_or_reason(const Reproduced& r, const std::string& id, const Read& read
 void add_commands(const Reproduced& r, const std::vector<std::string>& ids, ReportSection& section);
 /// The reasons as callouts.
 void add_problems(const std::vector<std::string>& problems, ReportSection& section);
+/// A PNG of a result folder as a picture of the report; nothing where it is not there.
+void add_picture(const Reproduced& r, const std::string& task, const std::filesystem::path& file,
+                 Picture picture, ReportSection& section);
 /// Stands where the paper prints nothing.
 TableCell not_printed();
 TableCell paper_cell(std::optional<double> value);

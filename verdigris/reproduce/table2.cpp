@@ -190,14 +190,20 @@ ReportSection figures12_section(const Reproduced& r) {
                 "{}: by t+10 the specimen has moved {:.2g} times as far here as in the paper.",
                 direction_title(d), moved / printed));
     }
-    list.items.push_back(
-        "The paper's pictures are not remade: they show forecast and truth of one window side by "
-        "side, which no command of this program draws. `verdigris age` draws a forecast beyond the "
-        "end of a recording, where there is no truth.");
-    section.blocks.push_back(std::move(list));
+    if (!list.items.empty()) section.blocks.push_back(std::move(list));
     add_problems(problems, section);
     section.blocks.push_back(std::move(table));
-    add_commands(r, {"characterize"}, section);
+    // `judge-materials` has the second recording's direction first if that is held out first.
+    for (const int d : {kChamberToAir, kAirToChamber})
+        add_picture(
+            r, "materials", fmt::format("renders/frames-{}.png", d == kChamberToAir ? 2 : 1),
+            {fmt::format("figure{}", d == kChamberToAir ? 1 : 2),
+             fmt::format("Figure {}: forecast and true frames, {}", d == kChamberToAir ? 1 : 2,
+                         r.direction(d)),
+             "One window of ours; the paper's pictures are of one of its own." + r.caution(),
+             {}},
+            section);
+    add_commands(r, {"characterize", "materials"}, section);
     return section;
 }
 

@@ -117,6 +117,12 @@ ReportSection table3_section(const Reproduced& r) {
     add_problems(problems, section);
     for (const char* what : {"flip", "lpips"})
         section.blocks.push_back(distances(r, ours ? &*ours : nullptr, what));
+    add_picture(r, "materials", "renders/u010.png",
+                {"table3-materials",
+                 "The materials of one window at +10",
+                 "Forecast, true future and FLIP's map." + r.caution(),
+                 {}},
+                section);
     add_commands(r, {"materials"}, section);
     return section;
 }
