@@ -192,12 +192,12 @@ TEST(JudgeMaterials, TheFramesOfAWindowStandBelowTheTrueOnes) {
     const Image<SrgbU8> sheet = draw_frame_sheet(j, 1);
     const MaterialExample& e = d.examples[1];
     const int zoom = (128 + e.last.width() - 1) / e.last.width();
-    const int wide = e.last.width() * zoom + 8, high = 2 * e.last.height() * zoom + 2 + 26 + 8;
+    const int wide = e.last.width() * zoom + 8, high = 2 * e.last.height() * zoom + 2 + 16;
     EXPECT_TRUE(shows(sheet, e.last, 28, 118, zoom));
-    EXPECT_TRUE(shows(sheet, e.true_frame.picture, 28 + 2 * wide, 118, zoom));
+    EXPECT_TRUE(shows(sheet, e.true_frame.picture, 28 + 170 + 8 + wide, 118, zoom));
     for (std::size_t i = 0; i + 3 < e.rows.size(); ++i)
-        EXPECT_TRUE(
-            shows(sheet, e.rows[3 + i].frame.picture, 28 + 2 * wide, 118 + int(i + 1) * high, zoom))
+        EXPECT_TRUE(shows(sheet, e.rows[3 + i].frame.picture, 28 + 170 + 8 + wide,
+                          118 + int(i + 1) * high, zoom))
             << e.rows[3 + i].name;
     // What is perfect has moved as far as the truth, and holding still not at all.
     EXPECT_TRUE(std::ranges::equal(e.rows[4].frame.change.pixels(), e.true_frame.change.pixels()));

@@ -86,7 +86,8 @@ ReportSection figure5_section(const Reproduced& r) {
         add_picture(r, ids[std::size_t(i)], "maps.png",
                     {fmt::format("figure5-maps-{}", i + 1),
                      fmt::format("Susceptibility as patinanet of {} has it", r.recording(i)),
-                     "Means over windows, beside where each specimen really changed." + r.caution(),
+                     "Left what it believes, right where the specimen really changed; above " +
+                         r.recording(0) + ", below " + r.recording(1) + "." + r.caution(),
                      {}},
                     section);
     add_commands(r, ids, section);
