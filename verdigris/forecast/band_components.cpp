@@ -16,9 +16,6 @@ namespace {
 
 using Eigen::MatrixXd;
 
-// chosen; docs/models/bandtrend.md has the sensitivity to both.
-constexpr double kGlobalCount = 2;     // a global drift has few independent parts: light, and color
-constexpr double kLargestCount = 100;  // neighbors are never as independent as they look
 // chosen: what a pixel did is told from its neighborhood, so that it is not told from its noise.
 constexpr int kEnergySigma = 2;
 
@@ -86,30 +83,38 @@ FewTerms few_terms(const MatrixXd& weights, const MatrixXd& gram) {
 const TrendModels& TrendModelsCache::of(int increments) {
     const std::lock_guard lock(mutex_);
     auto& slot = made_[increments];
-    if (!slot) slot = std::make_unique<TrendModels>(increments);
+    if (!slot) slot = std::make_unique<TrendModels>(increments, prior_);
     return *slot;
 }
 
-Components components_of(const Context& context, const Mask& moving, TrendModelsCache& models) {
-    Increments rest = increments_of(context, moving);
+Components components_of(const Context& context, const Mask& moving, const BandTrendDesign& design,
+                         TrendModelsCache& models) {
+    Increments rest = increments_of(context, moving, design.light);
     const TrendModels& trends = models.of(int(rest.size()));
     const double area = double(count_inside(moving));
     const double share = area / double(moving.pixel_count());
     Components out;
-    Increments part = affine_part(context, moving, rest);
-    subtract(part, rest);
-    out.all.push_back(forecast_component(part, kGlobalCount, share, trends));
-    out.has_global = !out.all.front().terms.empty();
-    out.global_energy = mean_energy(energy_of(part, moving), area);
+    Increments part;
+    if (design.global) {
+        part = affine_part(context, moving, rest);
+        subtract(part, rest);
+        out.all.push_back(forecast_component(part, design.global_count, share, trends));
+        out.has_global = !out.all.front().terms.empty();
+        out.global_energy = mean_energy(energy_of(part, moving), area);
+    }
     out.local_energy = energy_of(rest, moving);
-    for (const int sigma : band_sigmas(moving.width(), moving.height())) {
+    const std::vector<int> sigmas = design.local && design.bands
+                                        ? band_sigmas(moving.width(), moving.height())
+                                        : std::vector<int>();
+    for (const int sigma : sigmas) {
         smooth_part(rest, moving, sigma, part);
         subtract(part, rest);
         const double cells = area / (4 * std::numbers::pi * sigma * sigma);
         out.all.push_back(
-            forecast_component(part, std::clamp(cells, 1.0, kLargestCount), share, trends));
+            forecast_component(part, std::clamp(cells, 1.0, design.largest_count), share, trends));
     }
-    out.all.push_back(forecast_component(rest, kLargestCount, share, trends));
+    if (design.local)
+        out.all.push_back(forecast_component(rest, design.largest_count, share, trends));
     std::erase_if(out.all, [](const Component& c) { return c.terms.empty(); });
     return out;
 }

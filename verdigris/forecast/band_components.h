@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "verdigris/forecast/band_trend_design.h"
 #include "verdigris/forecast/increments.h"
 #include "verdigris/forecast/trend_models.h"
 
@@ -39,9 +40,11 @@ struct Component {
 /// Grids of models, made once for each number of increments. For several threads at once.
 class TrendModelsCache {
   public:
+    explicit TrendModelsCache(const TrendPrior& prior = {}) : prior_(prior) {}
     const TrendModels& of(int increments);
 
   private:
+    const TrendPrior prior_;
     std::mutex mutex_;
     std::map<int, std::unique_ptr<TrendModels>> made_;
 };
@@ -54,6 +57,7 @@ struct Components {
     Image<SrgbF> local_energy;
 };
 
-Components components_of(const Context& context, const Mask& moving, TrendModelsCache& models);
+Components components_of(const Context& context, const Mask& moving, const BandTrendDesign& design,
+                         TrendModelsCache& models);
 
 }  // namespace verdigris

@@ -18,7 +18,6 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr int kLongestContext = 40;
-constexpr double kConfidence = 1;  // chosen: standard deviations, five times in six
 
 /// What may move; the backdrop is held where it is known, whatever else is to be forecast.
 Mask specimen_of(const Context& context) {
@@ -37,10 +36,10 @@ Forecast held(const Context& context, std::string why) {
 }
 
 /// The last of kTrendUnits until which the forecast is confident to beat holding still; -1: none.
-int trusted_until(const std::vector<Component>& components) {
+int trusted_until(const std::vector<Component>& components, double confidence) {
     const Eigen::VectorXd advantage = expected_advantage(components);
     int last = -1;
-    while (last + 1 < int(advantage.size()) && advantage[last + 1] >= kConfidence) ++last;
+    while (last + 1 < int(advantage.size()) && advantage[last + 1] >= confidence) ++last;
     return last;
 }
 
@@ -83,19 +82,26 @@ Context end_of(const Context& context, int begin, int count) {
     return part;
 }
 
-Forecast forecast(const Context& context, bool clamp, TrendModelsCache& models) {
+/// What all forecasts of one forecaster have in common. For several threads at once.
+struct Method {
+    BandTrendDesign design;
+    TrendModelsCache models{design.prior};
+};
+
+Forecast forecast(const Context& context, bool clamp, Method& method) {
+    TrendModelsCache& models = method.models;
     const Mask moving = specimen_of(context);
     if (context.length() < 2)
         return held(context, "With 1 frame observed there is no change to carry on: held.");
     if (count_inside(moving) < 16)
         return held(context, "No usable pixel lies on the specimen, so the last state is held.");
-    const Components components = components_of(context, moving, models);
+    const Components components = components_of(context, moving, method.design, models);
     if (components.all.empty())
         return held(context, "Nothing changed in the context, so the last state is held.");
     Forecast f;
     f.forecaster = "bandtrend";
     f.context_length = context.length();
-    const int held = std::max(trusted_until(components.all), 0);
+    const int held = std::max(trusted_until(components.all, method.design.confidence), 0);
     f.trajectory = joined(context, components.all, held, clamp);
     f.spread = spread_of(context, moving, components, held, models);
     const auto& global = components.all.front();
@@ -128,14 +134,14 @@ double error_on(const Forecast& f, const Context& truth, int begin, int count, c
 }
 
 /// What the same method said of the end of the context when that was held back.
-std::string evidence(const Context& context, TrendModelsCache& models) {
+std::string evidence(const Context& context, Method& method) {
     const int back = std::max(1, std::min(context.length() - 3, context.length() / 3));
     if (context.length() < 5) return "";
     const int seen = context.length() - back;
     const Context before = end_of(context, 0, seen);
     const Mask moving = specimen_of(context);
     const double still = error_on(persistence().forecast(before), context, seen, back, moving);
-    const double ours = error_on(forecast(before, false, models), context, seen, back, moving);
+    const double ours = error_on(forecast(before, false, method), context, seen, back, moving);
     if (!(still > 0)) return "";
     const double gain = 1 - ours / still;
     const std::string frames = back == 1 ? "frame was" : fmt::format("{} frames were", back);
@@ -149,16 +155,16 @@ std::string evidence(const Context& context, TrendModelsCache& models) {
 
 Forecaster band_trend(const BandTrendOptions& options) {
     return {"bandtrend",
-            [options, models = std::make_shared<TrendModelsCache>()](const Context& context) {
+            [options, method = std::make_shared<Method>(options.design)](const Context& context) {
                 check_context(context);
                 const bool long_one = context.length() > kLongestContext;
                 const Context recent =
                     long_one ? end_of(context, context.length() - kLongestContext, kLongestContext)
                              : Context();
                 const Context& used = long_one ? recent : context;
-                Forecast f = forecast(used, options.clamp, *models);
+                Forecast f = forecast(used, options.clamp, *method);
                 if (options.explain && f.trajectory.law.tabulated())
-                    f.explanation += evidence(used, *models) + held_sentence(f.trajectory.law);
+                    f.explanation += evidence(used, *method) + held_sentence(f.trajectory.law);
                 f.context_length = context.length();
                 return f;
             }};

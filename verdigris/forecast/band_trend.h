@@ -4,6 +4,7 @@
 // Model: docs/models/bandtrend.md
 #pragma once
 
+#include "verdigris/forecast/band_trend_design.h"
 #include "verdigris/forecast/forecast.h"
 
 namespace verdigris {
@@ -11,6 +12,7 @@ namespace verdigris {
 struct BandTrendOptions {
     bool clamp = true;    ///< see Trajectory::clamp
     bool explain = true;  ///< also tries itself on the end of the context; about as much work again
+    BandTrendDesign design = {};
 };
 
 /// A forecaster for contexts of two frames and more; of one frame it holds still. Frames are

@@ -136,6 +136,30 @@ TEST(BandTrend, NeverMuchWorseThanHoldingStill) {
     }
 }
 
+/// The error without a part over that with it.
+double worth(const Scene& scene, const Context& context, const std::string& without) {
+    const Forecaster less = band_trend({.design = band_trend_design(without)});
+    return relative_error(scene, context, less) / relative_error(scene, context);
+}
+
+TEST(BandTrend, EachPartIsWhatItsOwnSceneNeeds) {
+    const Scene local = [](int t) { return plate(t); };
+    EXPECT_GT(worth(local, seen(local, 5), ":local=0"), 1.5);
+    EXPECT_GT(worth(local, seen(local, 5), ":bands=0"), 1.02);
+    const Scene slowing = [](int t) { return plate(8 * std::sqrt(1 + t)); };
+    EXPECT_GT(worth(slowing, seen(slowing, 5), ":slowing=0"), 1.05);
+    const double light[] = {1, 1.03, 0.98, 1.05, 1.08, 1.12};
+    const Scene lit = [&](int t) { return plate(t, light[std::min(t, 5)]); };
+    EXPECT_GT(worth(lit, seen(lit, 6), ":light=0"), 3);
+    const Scene still = [](int) { return plate(0); };
+    EXPECT_GT(worth(still, seen(still, 5), ":noise=0"), 1.01);
+    Context hand = seen(local, 6);
+    for (SrgbF& c : hand.frames[3].pixels()) c = {c.r * 0.7f, c.g * 0.7f, c.b * 0.7f};
+    hand.specimen = {};  // no backdrop: the step cannot be told from light
+    EXPECT_GT(worth(local, hand, ":events=0"), 1.5);
+    EXPECT_EQ(worth(local, seen(local, 5), ""), 1);
+}
+
 TEST(BandTrend, SaysWhichFrameDoesNotCount) {
     const Scene scene = [](int t) {
         Image<SrgbF> frame = plate(0.3 * t);

@@ -109,7 +109,13 @@ Forecaster forecaster_by_name(const std::string& name, const ChooseOptions& opti
     if (name == "auto") return automatic(options);
     if (name == "backtest") return back_tested(options);
     if (name == "persistence") return persistence();
-    if (name == "bandtrend") return band_trend({.clamp = options.clamp});
+    if (name == "bandtrend" || name.starts_with("bandtrend:")) {
+        Forecaster f = band_trend(
+            {.clamp = options.clamp,
+             .design = band_trend_design(name.substr(std::string_view("bandtrend").size()))});
+        f.name = name;
+        return f;
+    }
     AffineOptions affine{AffineFamily::full, 1, options.ridge_k, options.pixels, options.clamp};
     if (name == "affinergb") return affinergb(affine);
     for (AffineFamily family : kFamilies) {

@@ -34,7 +34,8 @@ Forecaster back_tested(const ChooseOptions& options = {});
 std::vector<BacktestRow> backtest(const Context& context, const ChooseOptions& options = {});
 
 /// "auto", "bandtrend", "backtest", "persistence", "affinergb" (full), "affinergb-full-1",
-/// "affinergb-per-channel-2", ... Throws Error{usage} listing the names.
+/// "affinergb-per-channel-2", ...; "bandtrend:bands=0" (band_trend_design.h). Throws Error{usage}
+/// listing the names.
 Forecaster forecaster_by_name(const std::string& name, const ChooseOptions& options = {});
 std::vector<std::string> forecaster_names();
 

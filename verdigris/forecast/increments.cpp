@@ -46,9 +46,10 @@ Image<SrgbF> mean_color(const std::vector<Image<SrgbF>>& frames) {
 
 }  // namespace
 
-Increments increments_of(const Context& context, const Mask& moving) {
-    const auto light = backdrop_light(context);
+Increments increments_of(const Context& context, const Mask& moving, bool relight) {
     const int n = context.length();
+    const auto light = relight ? backdrop_light(context)
+                               : std::vector<std::array<double, 3>>(std::size_t(n), {1, 1, 1});
     std::vector<Image<SrgbF>> relit_frames(std::size_t(n - 1));
     for (int i = 0; i + 1 < n; ++i)
         relit_frames[std::size_t(i)] = relit(context.frames[std::size_t(i)], light[std::size_t(i)]);

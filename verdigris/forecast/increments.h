@@ -15,8 +15,8 @@ namespace verdigris {
 using ColorField = std::array<Field, 3>;     ///< red, green, blue
 using Increments = std::vector<ColorField>;  ///< frame i + 1 less frame i; 0 outside of what moves
 
-/// Under the light of the last frame, by the backdrop.
-Increments increments_of(const Context& context, const Mask& moving);
+/// Under the light of the last frame, by the backdrop; `relight` false: as they are.
+Increments increments_of(const Context& context, const Mask& moving, bool relight = true);
 
 /// Of each increment, its least-squares fit by an affine function of the mean color. The ridge is
 /// three times the variance of the noise in that mean.

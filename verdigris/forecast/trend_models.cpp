@@ -17,16 +17,14 @@ struct Slowing {
     double kappa, prior;
 };
 constexpr Slowing kSlowing[] = {{0, .15}, {.02, .20}, {.05, .25}, {.1, .20}, {.2, .12}, {.5, .08}};
-constexpr double kDoubt = .01;   // per unit ahead: no drift is trusted to stay as it is for ever
 constexpr double kTrusted = 50;  // units after which a drift may as well be another one
 constexpr double kWandering[] = {0, .3, .6, .8, .92, .98, 1};
 constexpr double kBending[] = {.5, .75, .85, .92, .96, .99};
 constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
-constexpr double kFloor = 1e-4;          // variance that no model explains, of V
-constexpr double kNothingButNoise = .1;  // prior of frames that are one level and noise
-constexpr double kWalk = .1;             // and of a level that walks at random
-constexpr double kEventPrior = .02;      // of a step or an outlier, at each place it can have
-constexpr double kNegligible = 1e-9;     // weight of a model
+constexpr double kFloor = 1e-4;                  // variance that no model explains, of V
+constexpr double kNothingButNoise = .1;          // prior of frames that are one level and noise
+constexpr double kWalk = .1;                     // and of a level that walks at random
+constexpr double kNegligible = 1e-9;             // weight of a model
 constexpr double kEventSize[] = {10, 1e3, 1e5};  // variance, of V
 
 double covariance_at(bool bending, double rho, double lag) {
@@ -63,16 +61,24 @@ MatrixXd noise_of_increments(int q) {
 
 }  // namespace
 
-TrendModels::TrendModels(int increments) : increments_(increments) {
+TrendModels::TrendModels(int increments, const TrendPrior& prior)
+    : increments_(increments), prior_(prior) {
     const int q = increments, units = int(kTrendUnits.size());
-    for (int i = 0; i < q; ++i) events_.push_back({VectorXd::Unit(q, i), i + 1, false});
-    for (int i = 1; i < q; ++i)
+    const bool events = prior.event > 0;
+    for (int i = 0; events && i < q; ++i) events_.push_back({VectorXd::Unit(q, i), i + 1, false});
+    for (int i = 1; events && i < q; ++i)
         events_.push_back({VectorXd::Unit(q, i - 1) - VectorXd::Unit(q, i), i, true});
 
     const MatrixXd noise = noise_of_increments(q);
     const VectorXd units_ahead = Eigen::Map<const VectorXd>(kTrendUnits.data(), units);
     const VectorXd doubted = 1 - (-(units_ahead / kTrusted).array().cube()).exp();
-    const auto add_family = [&](bool bending, double rho, const Slowing& slowing, double prior) {
+    const std::vector<Slowing> slowings =
+        prior.slowing ? std::vector<Slowing>(std::begin(kSlowing), std::end(kSlowing))
+                      : std::vector<Slowing>{{0, 1}};
+    const std::vector<double> noises =
+        prior.noise ? std::vector<double>(std::begin(kNoise), std::end(kNoise))
+                    : std::vector<double>{0};
+    const auto add_family = [&](bool bending, double rho, const Slowing& slowing, double weight) {
         MatrixXd drift(q, q), future = MatrixXd::Zero(units, q);
         const auto size = [&](double back) { return std::exp(slowing.kappa * back); };
         for (int i = 0; i < q; ++i) {
@@ -84,30 +90,33 @@ TrendModels::TrendModels(int increments) : increments_(increments) {
             double sum = 0;
             for (int u = 0, ahead = 1; u < units; ++u) {
                 for (; ahead <= int(kTrendUnits[std::size_t(u)]); ++ahead)
-                    sum += size(q - 1 - i) * size(-ahead) * std::exp(-kDoubt * ahead) *
+                    sum += size(q - 1 - i) * size(-ahead) * std::exp(-prior.doubt * ahead) *
                            covariance_at(bending, rho, q - 1 - i + ahead);
                 future(u, i) = sum;
             }
         }
-        const VectorXd drifting = variance_ahead(bending, rho, slowing.kappa + kDoubt);
+        const VectorXd drifting = variance_ahead(bending, rho, slowing.kappa + prior.doubt);
         const VectorXd ahead =
             drifting + doubted.cwiseProduct(variance_ahead(bending, rho, slowing.kappa));
-        for (const double eta : kNoise) {
+        for (const double eta : noises) {
             MatrixXd with_future = future;
             with_future.col(q - 1).array() -= eta;  // the last frame's noise goes away again
             add(drift + eta * noise + kFloor * MatrixXd::Identity(q, q), with_future,
                 ahead + VectorXd::Constant(units, 2 * eta) + kFloor * units_ahead,
-                prior * slowing.prior / double(std::size(kNoise)));
+                weight * slowing.prior / double(noises.size()));
         }
     };
-    const double share = 1.0 / double(std::size(kWandering) + std::size(kBending));
-    for (const Slowing& slowing : kSlowing) {
+    const double share =
+        1.0 / double(std::size(kWandering) + (prior.bending ? std::size(kBending) : 0));
+    for (const Slowing& slowing : slowings) {
         for (const double rho : kWandering) add_family(false, rho, slowing, share);
+        if (!prior.bending) continue;
         for (const double rho : kBending) add_family(true, rho, slowing, share);
     }
     MatrixXd held = MatrixXd::Zero(units, q);
     add(MatrixXd::Identity(q, q), held, units_ahead, kWalk);
     held.col(q - 1).setConstant(-1);
+    if (!prior.noise) return;
     add(noise + 10 * kFloor * MatrixXd::Identity(q, q), held,
         VectorXd::Constant(units, 2) + 10 * kFloor * units_ahead, kNothingButNoise);
 }
@@ -137,7 +146,7 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     const double q = increments_, scale = std::max(gram.trace() / q, 1e-30);
     const MatrixXd g = gram / scale;  // no underflow, whatever the unit
     const std::size_t sizes = std::size(kEventSize), events = events_.size();
-    const double log_event = std::log(kEventPrior / double(sizes));
+    const double log_event = std::log(std::max(prior_.event, 1e-300) / double(sizes));
     // Of a model, and of it with each event at each size (Sherman and Morrison 1950).
     std::vector<double> evidence, seen_by_event;
     evidence.reserve(models_.size() * (1 + events * sizes));
@@ -214,6 +223,7 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     out.change = scale * (out.weights * g).cwiseProduct(out.weights).rowwise().sum();
     out.error = (scale * square - out.change).cwiseMax(0) + scale * widened * left;
     for (std::size_t e = 0; e < events; ++e) out.event += of_event[e];
+    if (events == 0) return out;
     const auto likeliest = std::max_element(of_event.begin(), of_event.end()) - of_event.begin();
     out.event_frame = events_[std::size_t(likeliest)].frame;
     out.outlier = events_[std::size_t(likeliest)].outlier;

@@ -8,6 +8,8 @@
 #include <array>
 #include <vector>
 
+#include "verdigris/forecast/band_trend_design.h"
+
 namespace verdigris {
 
 /// Units ahead for which a trend is worked out: linear in between, held beyond. chosen: dense where
@@ -37,7 +39,8 @@ struct Trend {
 /// fitted. Building costs O(models q^3), once; `trend` O(models q^3).
 class TrendModels {
   public:
-    explicit TrendModels(int increments);  ///< at least 1
+    /// `increments`: at least 1.
+    explicit TrendModels(int increments, const TrendPrior& prior = {});
     int increments() const { return increments_; }
 
     /// `gram`: mean over pixels and channels of d_i d_j. `count`: how many independent pixels
@@ -65,6 +68,7 @@ class TrendModels {
              const Eigen::VectorXd& future, double prior);
 
     int increments_ = 0;
+    TrendPrior prior_;
     std::vector<Event> events_;
     std::vector<Model> models_;
 };

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// What bandtrend is made of, so that each part and constant can be taken out or changed.
+// Model: docs/models/bandtrend.md
+#pragma once
+
+#include <string>
+
+namespace verdigris {
+
+/// What is thought possible before anything is seen. What is off is an ablation.
+struct TrendPrior {
+    bool slowing = true;  ///< drifts that slow down
+    bool bending = true;  ///< drifts that bend smoothly, beside those that wander
+    bool noise = true;    ///< frames with white noise
+    double event = 0.02;  ///< of a step or an outlier, at each place it can have; 0: none
+    double doubt = 0.01;  ///< per unit ahead: no drift is trusted to stay as it is for ever
+};
+
+/// The parts of the method and its constants; docs/models/bandtrend.md. What is off is an ablation.
+struct BandTrendDesign {
+    bool light = true;   ///< frames are brought under the light of the last one
+    bool global = true;  ///< a drift that is affine in color, before all else
+    bool local = true;   ///< what that leaves
+    bool bands = true;   ///< split by how far it reaches; else it is one component
+    // chosen; docs/models/bandtrend.md has the sensitivity to all of them.
+    double global_count = 2;     ///< a global drift has few independent parts: light, and color
+    double largest_count = 100;  ///< neighbors are never as independent as they look
+    double confidence = 1;       ///< standard deviations; where a trend is held
+    TrendPrior prior;
+};
+
+/// For ablations: "" is the method as it is; ":bands=0:confidence=0.5" differs in what is named.
+/// Keys: light, global, local, bands, slowing, bending, noise (0 or 1); events, doubt, confidence,
+/// global-count, band-count (numbers of 0 and more; counts of 1 and more). Throws Error{usage}
+/// naming the key.
+BandTrendDesign band_trend_design(const std::string& text);
+
+}  // namespace verdigris
