@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "verdigris/forecast/change_part.h"
 #include "verdigris/forecast/context_pixels.h"
 #include "verdigris/pixels/parallel_rows.h"
 
@@ -19,18 +20,17 @@ using Eigen::MatrixXd;
 // chosen: what a pixel did is told from its neighborhood, so that it is not told from its noise.
 constexpr int kEnergySigma = 2;
 
-/// `share`: of the pixels that move. Means of squares are then over these.
-Component forecast_component(const Increments& d, double count, double share,
+Component forecast_component(const ChangePart& part, const PartMoments& moments, double count,
                              const TrendModels& models) {
     Component c;
     c.count = count;
-    c.increments = gram_of(d) / share;
+    c.increments = moments.gram;
     if (!(c.increments.trace() > 0)) return c;
     c.trend = models.trend(c.increments, count);
     const FewTerms few = few_terms(c.trend.weights, c.increments);
     c.laws = few.laws;
     c.gram = few.parts * c.increments * few.parts.transpose();
-    for (int i = 0; i < kTerms; ++i) c.terms.push_back(combined(d, few.parts.row(i)));
+    for (int i = 0; i < kTerms; ++i) c.terms.push_back(part.combined(few.parts.row(i)));
     return c;
 }
 
@@ -51,12 +51,6 @@ Image<SrgbF> energy_of(const Increments& d, const Mask& moving) {
     for (std::size_t at = 0; at < out.pixels().size(); ++at)
         out.pixels()[at] = {energy[0][at], energy[1][at], energy[2][at]};
     return out;
-}
-
-SrgbF mean_energy(const Image<SrgbF>& energy, double inside) {
-    double r = 0, g = 0, b = 0;
-    for (const SrgbF& e : energy.pixels()) r += double(e.r), g += double(e.g), b += double(e.b);
-    return {float(r / inside), float(g / inside), float(b / inside)};
 }
 
 }  // namespace
@@ -92,29 +86,30 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     Increments rest = increments_of(context, moving, design.light);
     const TrendModels& trends = models.of(int(rest.size()));
     const double area = double(count_inside(moving));
-    const double share = area / double(moving.pixel_count());
     Components out;
-    Increments part;
     if (design.global) {
-        part = affine_part(context, moving, rest);
-        subtract(part, rest);
-        out.all.push_back(forecast_component(part, design.global_count, share, trends));
+        const AffinePart part(context, moving, rest);
+        const PartMoments moments = moments_of(part);
+        out.all.push_back(forecast_component(part, moments, design.global_count, trends));
         out.has_global = !out.all.front().terms.empty();
-        out.global_energy = mean_energy(energy_of(part, moving), area);
+        out.global_energy = moments.energy;
+        part.subtract(rest);
     }
     out.local_energy = energy_of(rest, moving);
     const std::vector<int> sigmas = design.local && design.bands
                                         ? band_sigmas(moving.width(), moving.height())
                                         : std::vector<int>();
     for (const int sigma : sigmas) {
-        smooth_part(rest, moving, sigma, part);
-        subtract(part, rest);
+        const SmoothPart part(rest, moving, sigma);
         const double cells = area / (4 * std::numbers::pi * sigma * sigma);
-        out.all.push_back(
-            forecast_component(part, std::clamp(cells, 1.0, design.largest_count), share, trends));
+        out.all.push_back(forecast_component(part, moments_of(part),
+                                             std::clamp(cells, 1.0, design.largest_count), trends));
+        part.subtract(rest);
     }
-    if (design.local)
-        out.all.push_back(forecast_component(rest, design.largest_count, share, trends));
+    if (design.local) {
+        const RestPart part(rest, moving);
+        out.all.push_back(forecast_component(part, moments_of(part), design.largest_count, trends));
+    }
     std::erase_if(out.all, [](const Component& c) { return c.terms.empty(); });
     return out;
 }

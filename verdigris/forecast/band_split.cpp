@@ -34,6 +34,7 @@ MaskedGaussian::MaskedGaussian(const Mask& inside, int sigma)
                    [](std::uint8_t v) { return v ? 1.0f : 0.0f; });
     sums(ones, weight_);
     blur(weight_);
+    for (int x = 0; x < width_; ++x) across_.push_back(between(x, columns_));
 }
 
 void MaskedGaussian::sums(const Field& field, Field& cells) const {
@@ -82,47 +83,49 @@ void MaskedGaussian::blur(Field& cells) const {
     }
 }
 
-void MaskedGaussian::mean(const Field& field, Field& out) const {
-    Field cells;
+void MaskedGaussian::cells(const Field& field, Field& cells) const {
     sums(field, cells);
     blur(cells);
     for (std::size_t i = 0; i < cells.size(); ++i)
         cells[i] = weight_[i] > 1e-6f ? cells[i] / weight_[i] : 0;
-    out.resize(field.size());
-    const auto inside = inside_.pixels();
+}
+
+// Between the centers of cells.
+MaskedGaussian::Between MaskedGaussian::between(int at, int count) const {
+    const float position = (float(at) + 0.5f) / float(cell_) - 0.5f;
+    const int from = std::clamp(int(std::floor(position)), 0, count - 1);
+    return {from, std::min(from + 1, count - 1), std::clamp(position - float(from), 0.0f, 1.0f)};
+}
+
+void MaskedGaussian::row(const Field& cells, int y, float* out) const {
+    const std::uint8_t* inside = inside_.row(y);
     if (cell_ == 1) {
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] = inside[i] ? cells[i] : 0;
+        const float* from = cells.data() + std::size_t(y) * std::size_t(width_);
+        for (int x = 0; x < width_; ++x) out[x] = inside[x] ? from[x] : 0;
         return;
     }
-    // Between the centers of cells.
-    struct Between {
-        int from, to;
-        float share;
-    };
-    const auto between = [&](int at, int count) -> Between {
-        const float position = (float(at) + 0.5f) / float(cell_) - 0.5f;
-        const int from = std::clamp(int(std::floor(position)), 0, count - 1);
-        return {from, std::min(from + 1, count - 1),
-                std::clamp(position - float(from), 0.0f, 1.0f)};
-    };
-    std::vector<Between> across;
-    for (int x = 0; x < width_; ++x) across.push_back(between(x, columns_));
-    for (int y = 0; y < height_; ++y) {
-        const Between down = between(y, rows_);
-        const float* above = cells.data() + std::size_t(down.from) * std::size_t(columns_);
-        const float* below = cells.data() + std::size_t(down.to) * std::size_t(columns_);
-        const std::size_t row = std::size_t(y) * std::size_t(width_);
-        for (int x = 0; x < width_; ++x) {
-            if (inside[row + std::size_t(x)] == 0) {
-                out[row + std::size_t(x)] = 0;
-                continue;
-            }
-            const Between& b = across[std::size_t(x)];
-            const float top = above[b.from] + b.share * (above[b.to] - above[b.from]);
-            const float bottom = below[b.from] + b.share * (below[b.to] - below[b.from]);
-            out[row + std::size_t(x)] = top + down.share * (bottom - top);
-        }
+    const Between down = between(y, rows_);
+    const float* above = cells.data() + std::size_t(down.from) * std::size_t(columns_);
+    const float* below = cells.data() + std::size_t(down.to) * std::size_t(columns_);
+    // First down, so that across there is one row of cells to look at.
+    thread_local Field middle;
+    middle.resize(std::size_t(columns_));
+    for (int i = 0; i < columns_; ++i)
+        middle[std::size_t(i)] = above[i] + down.share * (below[i] - above[i]);
+    for (int x = 0; x < width_; ++x) {
+        const Between& b = across_[std::size_t(x)];
+        const float left = middle[std::size_t(b.from)];
+        out[x] = left + b.share * (middle[std::size_t(b.to)] - left);
     }
+    for (int x = 0; x < width_; ++x) out[x] = inside[x] ? out[x] : 0;
+}
+
+void MaskedGaussian::mean(const Field& field, Field& out) const {
+    Field kept;
+    cells(field, kept);
+    out.resize(field.size());
+    for (int y = 0; y < height_; ++y)
+        row(kept, y, out.data() + std::size_t(y) * std::size_t(width_));
 }
 
 }  // namespace verdigris

@@ -24,8 +24,17 @@ class MaskedGaussian {
     MaskedGaussian(const Mask& inside, int sigma);
     /// `field` is 0 outside. `out` is resized; 0 outside.
     void mean(const Field& field, Field& out) const;
+    /// The same in two steps: what is kept of a field, then one row of what it stands for, `width`
+    /// values. Rows are linear in cells.
+    void cells(const Field& field, Field& cells) const;
+    void row(const Field& cells, int y, float* out) const;
 
   private:
+    struct Between {
+        int from, to;
+        float share;
+    };
+    Between between(int at, int count) const;
     void sums(const Field& field, Field& cells) const;
     void blur(Field& cells) const;
 
@@ -33,6 +42,7 @@ class MaskedGaussian {
     int width_, height_, cell_, columns_, rows_;
     std::vector<float> taps_;  ///< center first
     Field weight_;             ///< blurred mask, in cells
+    std::vector<Between> across_;
 };
 
 }  // namespace verdigris

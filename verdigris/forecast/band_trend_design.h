@@ -13,6 +13,7 @@ struct TrendPrior {
     bool bending = true;  ///< drifts that bend smoothly, beside those that wander
     bool noise = true;    ///< frames with white noise
     double event = 0.02;  ///< of a step or an outlier, at each place it can have; 0: none
+    double level = 0.1;   ///< of frames that are one level and noise
     double doubt = 0.01;  ///< per unit ahead: no drift is trusted to stay as it is for ever
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The changes from frame to frame of a context, as fields over the specimen, and the parts they
-// are split into (internal).
+// The changes from frame to frame of a context, as fields over the specimen (internal).
 #pragma once
 
 #include <Eigen/Core>
@@ -18,17 +17,6 @@ using Increments = std::vector<ColorField>;  ///< frame i + 1 less frame i; 0 ou
 /// Under the light of the last frame, by the backdrop; `relight` false: as they are.
 Increments increments_of(const Context& context, const Mask& moving, bool relight = true);
 
-/// Of each increment, its least-squares fit by an affine function of the mean color. The ridge is
-/// three times the variance of the noise in that mean.
-Increments affine_part(const Context& context, const Mask& moving, const Increments& increments);
-/// Under a Gaussian.
-void smooth_part(const Increments& increments, const Mask& moving, int sigma, Increments& out);
-void subtract(const Increments& part, Increments& from);
-
-/// Mean over what is not 0 outside and channels of the products of increments i and j; in double,
-/// same bytes at any number of threads.
-Eigen::MatrixXd gram_of(const Increments& increments);
-ColorField combined(const Increments& increments, const Eigen::RowVectorXd& weights);
 Image<SrgbF> image_of(const std::vector<const ColorField*>& planes,
                       const Eigen::RowVectorXd& weights, const Image<SrgbF>& like);
 /// Mean over channels and pixels inside.

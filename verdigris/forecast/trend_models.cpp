@@ -22,7 +22,6 @@ constexpr double kWandering[] = {0, .3, .6, .8, .92, .98, 1};
 constexpr double kBending[] = {.5, .75, .85, .92, .96, .99};
 constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
 constexpr double kFloor = 1e-4;                  // variance that no model explains, of V
-constexpr double kNothingButNoise = .1;          // prior of frames that are one level and noise
 constexpr double kWalk = .1;                     // and of a level that walks at random
 constexpr double kNegligible = 1e-9;             // weight of a model
 constexpr double kEventSize[] = {10, 1e3, 1e5};  // variance, of V
@@ -118,7 +117,7 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     held.col(q - 1).setConstant(-1);
     if (!prior.noise) return;
     add(noise + 10 * kFloor * MatrixXd::Identity(q, q), held,
-        VectorXd::Constant(units, 2) + 10 * kFloor * units_ahead, kNothingButNoise);
+        VectorXd::Constant(units, 2) + 10 * kFloor * units_ahead, prior.level);
 }
 
 void TrendModels::add(const MatrixXd& covariance, const MatrixXd& with_future,

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/change_part.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "verdigris/forecast/context_noise.h"
+#include "verdigris/pixels/parallel_rows.h"
+
+namespace verdigris {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector4d;
+
+constexpr int kChunk = 8192;  // values per task: sums are combined chunk by chunk, in order
+constexpr int kRowsPerTask = 32;
+
+int rows_per_chunk(int width) {
+    return std::max(1, kChunk / width);
+}
+
+Image<SrgbF> mean_color(const std::vector<Image<SrgbF>>& frames) {
+    Image<SrgbF> mean(frames.front().width(), frames.front().height());
+    const float share = 1 / float(frames.size());
+    parallel_rows(mean.height(), kRowsPerTask, [&](RowRun run) {
+        for (int y = run.begin; y < run.end; ++y) {
+            for (const auto& frame : frames) {
+                for (int x = 0; x < mean.width(); ++x) {
+                    SrgbF& to = mean(x, y);
+                    const SrgbF c = frame(x, y);
+                    to = {to.r + share * c.r, to.g + share * c.g, to.b + share * c.b};
+                }
+            }
+        }
+    });
+    return mean;
+}
+
+struct AffineMoments {
+    Eigen::Matrix4d xx = Eigen::Matrix4d::Zero();
+    MatrixXd xd;
+    double count = 0;
+};
+
+AffineMoments affine_moments(const Image<SrgbF>& color, const Mask& moving,
+                             const Increments& increments) {
+    const auto q = Eigen::Index(increments.size());
+    const auto parts =
+        map_rows<AffineMoments>(color.height(), rows_per_chunk(color.width()), [&](RowRun run) {
+            AffineMoments m;
+            m.xd = MatrixXd::Zero(4, 3 * q);
+            for (int y = run.begin; y < run.end; ++y) {
+                const std::size_t row = std::size_t(y) * std::size_t(color.width());
+                for (int x = 0; x < color.width(); ++x) {
+                    if (moving(x, y) == 0) continue;
+                    const SrgbF c = color(x, y);
+                    const Vector4d f{1, double(c.r), double(c.g), double(c.b)};
+                    m.xx += f * f.transpose();
+                    ++m.count;
+                    for (Eigen::Index i = 0; i < q; ++i)
+                        for (Eigen::Index k = 0; k < 3; ++k)
+                            m.xd.col(3 * i + k) +=
+                                f * double(increments[std::size_t(i)][std::size_t(k)]
+                                                     [row + std::size_t(x)]);
+                }
+            }
+            return m;
+        });
+    AffineMoments all;
+    all.xd = MatrixXd::Zero(4, 3 * q);
+    for (const AffineMoments& m : parts) all.xx += m.xx, all.xd += m.xd, all.count += m.count;
+    return all;
+}
+
+/// Rows that `row(channel, y, out)` writes, as a field.
+template <class Row>
+ColorField field_of(const Mask& moving, const Row& row) {
+    ColorField out;
+    for (Field& plane : out) plane.resize(moving.pixel_count());
+    parallel_rows(moving.height(), kRowsPerTask, [&](RowRun run) {
+        for (int k = 0; k < 3; ++k)
+            for (int y = run.begin; y < run.end; ++y)
+                row(k, y,
+                    out[std::size_t(k)].data() + std::size_t(y) * std::size_t(moving.width()));
+    });
+    return out;
+}
+
+}  // namespace
+
+void ChangePart::subtract(Increments& from) const {
+    const int width = moving_.width(), height = moving_.height();
+    parallel_for(3 * int(from.size()), [&](int i) {
+        Field part(std::size_t(width), 0);
+        float* to = from[std::size_t(i / 3)][std::size_t(i % 3)].data();
+        for (int y = 0; y < height; ++y, to += width) {
+            row(i / 3, i % 3, y, part.data());
+            for (int x = 0; x < width; ++x) to[x] -= part[std::size_t(x)];
+        }
+    });
+}
+
+AffinePart::AffinePart(const Context& context, const Mask& moving, const Increments& increments)
+    : ChangePart(moving), color_(mean_color(context.frames)) {
+    const AffineMoments all = affine_moments(color_, moving, increments);
+    // Centered, so that the ridge holds back the slopes and not the mean.
+    const Eigen::Vector3d mean = all.xx.block<3, 1>(1, 0) / all.count;
+    const Eigen::Matrix3d spread = all.xx.block<3, 3>(1, 1) / all.count - mean * mean.transpose();
+    const double sigma =
+        context.sigma > 0 ? context.sigma : context_noise(context.frames, moving, 1e-3);
+    const double ridge = 3 * sigma * sigma / context.length() + 1e-12;
+    const MatrixXd mean_change = all.xd.row(0) / all.count;
+    const MatrixXd together = all.xd.bottomRows(3) / all.count - mean * mean_change;
+    const MatrixXd slopes =
+        Eigen::LDLT<Eigen::Matrix3d>(spread + ridge * Eigen::Matrix3d::Identity()).solve(together);
+    fit_.resize(4, all.xd.cols());
+    fit_.row(0) = mean_change - mean.transpose() * slopes;
+    fit_.bottomRows(3) = slopes;
+}
+
+void AffinePart::row_of(const Vector4d& fit, int y, float* out) const {
+    const Eigen::Vector4f f = fit.cast<float>();
+    const SrgbF* color = color_.row(y);
+    const std::uint8_t* inside = moving().row(y);
+    for (int x = 0; x < color_.width(); ++x) {
+        const SrgbF c = color[x];
+        const float value = f[0] + f[1] * c.r + f[2] * c.g + f[3] * c.b;
+        out[x] = inside[x] ? value : 0;
+    }
+}
+
+void AffinePart::row(int increment, int channel, int y, float* out) const {
+    row_of(fit_.col(3 * increment + channel), y, out);
+}
+
+ColorField AffinePart::combined(const Eigen::RowVectorXd& weights) const {
+    std::array<Vector4d, 3> fit;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        fit[std::size_t(k)] = Vector4d::Zero();
+        for (Eigen::Index i = 0; i < weights.size(); ++i)
+            fit[std::size_t(k)] += weights[i] * fit_.col(3 * i + k);
+    }
+    return field_of(moving(),
+                    [&](int k, int y, float* out) { row_of(fit[std::size_t(k)], y, out); });
+}
+
+SmoothPart::SmoothPart(const Increments& increments, const Mask& moving, int sigma)
+    : ChangePart(moving), gaussian_(moving, sigma), cells_(increments.size()) {
+    parallel_for(3 * int(increments.size()), [&](int i) {
+        const auto at = std::size_t(i / 3), k = std::size_t(i % 3);
+        gaussian_.cells(increments[at][k], cells_[at][k]);
+    });
+}
+
+void SmoothPart::row(int increment, int channel, int y, float* out) const {
+    gaussian_.row(cells_[std::size_t(increment)][std::size_t(channel)], y, out);
+}
+
+ColorField SmoothPart::combined(const Eigen::RowVectorXd& weights) const {
+    ColorField cells;
+    parallel_for(3, [&](int k) {
+        Field& to = cells[std::size_t(k)];
+        to.assign(cells_.front()[std::size_t(k)].size(), 0);
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            const float w = float(weights[Eigen::Index(i)]);
+            const Field& from = cells_[i][std::size_t(k)];
+            for (std::size_t at = 0; at < to.size(); ++at) to[at] += w * from[at];
+        }
+    });
+    return field_of(
+        moving(), [&](int k, int y, float* out) { gaussian_.row(cells[std::size_t(k)], y, out); });
+}
+
+void RestPart::row(int increment, int channel, int y, float* out) const {
+    const float* from = increments_[std::size_t(increment)][std::size_t(channel)].data() +
+                        std::size_t(y) * std::size_t(moving().width());
+    std::copy(from, from + moving().width(), out);
+}
+
+ColorField RestPart::combined(const Eigen::RowVectorXd& weights) const {
+    const auto width = std::size_t(moving().width());
+    return field_of(moving(), [&](int k, int y, float* out) {
+        std::fill(out, out + width, 0.0f);
+        for (std::size_t i = 0; i < increments_.size(); ++i) {
+            const float w = float(weights[Eigen::Index(i)]);
+            const float* from = increments_[i][std::size_t(k)].data() + std::size_t(y) * width;
+            for (std::size_t x = 0; x < width; ++x) out[x] += w * from[x];
+        }
+    });
+}
+
+PartMoments moments_of(const ChangePart& part) {
+    const Mask& moving = part.moving();
+    const int width = moving.width(), height = moving.height();
+    const auto q = Eigen::Index(part.increments());
+    const std::int64_t pixels = std::int64_t(width) * height;
+    const int step = int(1 + (pixels - 1) / kMostMoments);
+    struct Sums {
+        MatrixXd gram;
+        std::array<double, 3> squares{};
+        double inside = 0;
+    };
+    const auto sums =
+        map_rows<Sums>((height + step - 1) / step, rows_per_chunk(width), [&](RowRun run) {
+            Sums s;
+            s.gram = MatrixXd::Zero(q, q);
+            // Rows of values in double: a product of matrices then does the work.
+            const auto count = Eigen::Index(run.end - run.begin) * width;
+            Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(q, count);
+            Field row(std::size_t(width), 0);
+            for (int y = run.begin; y < run.end; ++y)
+                for (int x = 0; x < width; ++x) s.inside += moving(x, y * step) != 0;
+            for (int k = 0; k < 3; ++k) {
+                for (Eigen::Index i = 0; i < q; ++i) {
+                    for (int y = run.begin; y < run.end; ++y) {
+                        part.row(int(i), k, y * step, row.data());
+                        double* to = values.row(i).data() + std::ptrdiff_t(y - run.begin) * width;
+                        for (int x = 0; x < width; ++x) to[x] = double(row[std::size_t(x)]);
+                    }
+                }
+                const double before = s.gram.trace();
+                s.gram.selfadjointView<Eigen::Lower>().rankUpdate(values);
+                s.squares[std::size_t(k)] = s.gram.trace() - before;
+            }
+            return s;
+        });
+    PartMoments out{MatrixXd::Zero(q, q), {}};
+    std::array<double, 3> squares{};
+    double inside = 0;
+    for (const Sums& s : sums) {
+        out.gram += s.gram;
+        inside += s.inside;
+        for (std::size_t k = 0; k < 3; ++k) squares[k] += s.squares[k];
+    }
+    out.gram.triangularView<Eigen::StrictlyUpper>() = out.gram.transpose();
+    inside = std::max(inside, 1.0);
+    out.gram /= 3 * inside;
+    const double values = double(q) * inside;
+    out.energy = {float(squares[0] / values), float(squares[1] / values),
+                  float(squares[2] / values)};
+    return out;
+}
+
+}  // namespace verdigris
