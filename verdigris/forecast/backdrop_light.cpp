@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "verdigris/color/convert.h"
+#include "verdigris/forecast/context_noise.h"
 #include "verdigris/forecast/context_pixels.h"
+#include "verdigris/forecast/increments.h"
 #include "verdigris/pixels/parallel_rows.h"
 
 namespace verdigris {
@@ -31,13 +33,10 @@ float channel(const SrgbF& c, int k) {
     return k == 0 ? c.r : k == 1 ? c.g : c.b;
 }
 
-}  // namespace
+using Light = std::vector<std::array<double, 3>>;
 
-std::vector<std::array<double, 3>> backdrop_light(const Context& context) {
-    std::vector<std::array<double, 3>> light(context.frames.size(), {1, 1, 1});
-    if (context.specimen.empty() && context.backdrop.empty()) return light;
-    const auto pixels = sample_inside(backdrop(context), kMostPixels);
-    if (std::int64_t(pixels.size()) < kFewestPixels) return light;
+Light median_light(const Context& context, const std::vector<std::size_t>& pixels) {
+    Light light(context.frames.size(), {1, 1, 1});
     const auto last = context.frames.back().pixels();
     parallel_for(int(context.frames.size()) - 1, [&](int i) {
         const auto frame = context.frames[std::size_t(i)].pixels();
@@ -55,6 +54,49 @@ std::vector<std::array<double, 3>> backdrop_light(const Context& context) {
         }
     });
     return light;
+}
+
+/// One gain for all channels, as light and exposure have it and copper has not: channels differ by
+/// at most a seventh of the largest change. chosen
+bool is_gray(const Light& light) {
+    double largest = 0, apart = 0;
+    for (const auto& gain : light) {
+        const double r = std::log(gain[0]), g = std::log(gain[1]), b = std::log(gain[2]);
+        largest = std::max(largest, std::abs(r + g + b) / 3);
+        apart = std::max(apart, std::max({r, g, b}) - std::min({r, g, b}));
+    }
+    return largest > 0 && apart <= largest / 7;
+}
+
+/// Do frames under this light differ by their noise alone, and as they are by more?
+bool explains_all(const Context& context, const Light& light, const Mask& inside) {
+    const double sigma =
+        context.sigma > 0 ? context.sigma : context_noise(context.frames, inside, 1e-3);
+    const double noise = 2 * sigma * sigma;
+    double as_it_is = 0, under_it = 0;
+    for (std::size_t i = 0; i + 1 < context.frames.size(); ++i) {
+        const auto& last = context.frames.back();
+        as_it_is = std::max(as_it_is, mean_square_difference(context.frames[i], last, inside));
+        under_it = std::max(
+            under_it, mean_square_difference(relit(context.frames[i], light[i]), last, inside));
+    }
+    // chosen: half as much again, for noise that is not known better.
+    return under_it <= 1.5 * noise && as_it_is > 1.5 * noise;
+}
+
+}  // namespace
+
+std::vector<std::array<double, 3>> backdrop_light(const Context& context) {
+    const Light none(context.frames.size(), {1, 1, 1});
+    if (!context.specimen.empty() || !context.backdrop.empty()) {
+        const auto pixels = sample_inside(backdrop(context), kMostPixels);
+        if (std::int64_t(pixels.size()) >= kFewestPixels) return median_light(context, pixels);
+    }
+    const Mask all = fit_mask(context, FitPixels::all);
+    const auto pixels = sample_inside(all, kMostPixels);
+    if (std::int64_t(pixels.size()) < kFewestPixels) return none;
+    Light light = median_light(context, pixels);
+    return is_gray(light) && explains_all(context, light, all) ? light : none;
 }
 
 Image<SrgbF> relit(const Image<SrgbF>& frame, const std::array<double, 3>& gain) {

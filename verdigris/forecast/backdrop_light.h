@@ -11,7 +11,8 @@ namespace verdigris {
 
 /// Per frame and channel: how much brighter, in linear light, the last frame shows the backdrop
 /// (pixels outside the specimen, not clipped): the median over pixels, which a moving minority does
-/// not shift. All 1 where there is no backdrop of 200 pixels to see.
+/// not shift. Where there is no backdrop of 200 pixels to see: of the whole picture, if one gray
+/// gain per frame is all that happens to it, noise aside; else all 1.
 std::vector<std::array<double, 3>> backdrop_light(const Context& context);
 
 /// `frame` with its linear light multiplied by `gain`.

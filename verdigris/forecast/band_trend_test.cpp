@@ -106,6 +106,26 @@ TEST(BandTrend, LightThatTheBackdropShowsIsNotAging) {
     EXPECT_LT(relative_error(scene, seen(scene, 6)), 0.2);
 }
 
+TEST(BandTrend, OneGainOfTheWholePictureAndNothingElseIsLight) {
+    const double light[] = {1, 1.02, 1.04, 1.05, 1.07, 1.08};
+    const Scene lit = [&](int t) { return plate(0, light[std::min(t, 5)]); };
+    Context context = seen(lit, 6);
+    context.specimen = {};
+    const auto gains = backdrop_light(context);
+    EXPECT_NEAR(gains[0][1], 1.08, 0.003);
+    EXPECT_LT(relative_error(lit, context), 1);
+    // With any aging in it, or in color, it may be the copper.
+    const Scene aging = [&](int t) { return plate(t, light[std::min(t, 5)]); };
+    context = seen(aging, 6);
+    context.specimen = {};
+    EXPECT_EQ(backdrop_light(context)[0], (std::array<double, 3>{1, 1, 1}));
+    context = seen(lit, 6);
+    context.specimen = {};
+    for (std::size_t i = 0; i < context.frames.size(); ++i)
+        for (SrgbF& c : context.frames[i].pixels()) c.b *= 1 - 0.01f * float(i);
+    EXPECT_EQ(backdrop_light(context)[0], (std::array<double, 3>{1, 1, 1}));
+}
+
 TEST(BandTrend, NeverMuchWorseThanHoldingStill) {
     const auto still = [] { return plate(0); };
     // A light is switched on; the tripod moves; a hand; a flash. The specimen does not change.
