@@ -32,8 +32,8 @@ struct BandTrendDesign {
 
 /// For ablations: "" is the method as it is; ":bands=0:confidence=0.5" differs in what is named.
 /// Keys: light, global, local, bands, slowing, bending, noise (0 or 1); events, doubt, confidence,
-/// level, global-count, band-count (numbers of 0 and more; counts of 1 and more). Throws Error{usage}
-/// naming the key.
+/// level, global-count, band-count (numbers of 0 and more; counts of 1 and more). Throws
+/// Error{usage} naming the key.
 BandTrendDesign band_trend_design(const std::string& text);
 
 }  // namespace verdigris
