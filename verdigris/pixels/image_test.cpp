@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <thread>
+
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -78,6 +81,13 @@ TEST(ParallelRows, PassesExceptionsOn) {
                                    if (run.index == 50) throw std::runtime_error("row 50");
                                }),
                  std::runtime_error);
+}
+
+TEST(OnOneThread, WhatIsInsideStaysOnIt) {
+    std::set<std::thread::id> threads;
+    on_one_thread(
+        [&] { parallel_for(1000, [&](int) { threads.insert(std::this_thread::get_id()); }); });
+    EXPECT_EQ(threads.size(), 1u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <memory>
@@ -34,6 +35,10 @@ void parallel_for(int count, const std::function<void(int)>& body) {
                       [&](const tbb::blocked_range<int>& r) {
                           for (int i = r.begin(); i != r.end(); ++i) body(i);
                       });
+}
+
+void on_one_thread(const std::function<void()>& body) {
+    tbb::task_arena(1).execute(body);
 }
 
 void set_thread_count(int threads) {

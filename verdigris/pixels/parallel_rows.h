@@ -38,4 +38,8 @@ void parallel_for(int count, const std::function<void(int)>& body);
 /// Limits every later parallel call in this process to `threads` (0: all the machine has).
 void set_thread_count(int threads);
 
+/// Runs `body`, and what it or a library on oneTBB does in parallel, on one thread: for what need
+/// not come out the same on several.
+void on_one_thread(const std::function<void()>& body);
+
 }  // namespace verdigris

@@ -2,6 +2,7 @@
 #include "verdigris/render/render.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include "verdigris/render/settings.h"
 #include "verdigris/render/testing.h"
 #include "verdigris/render/tone_map.h"
+#include "verdigris/render/tracer.h"
 
 namespace verdigris {
 namespace {
@@ -250,6 +252,15 @@ TEST(Render, NonsenseIsRefused) {
         EXPECT_EQ(code({}), ErrorCode::usage);
     }
     EXPECT_EQ(error_of([] { SurfaceMaps(Material{}); }).code(), ErrorCode::usage);
+}
+
+TEST(Render, ATracerDoesNotTakeTheOtherThreads) {
+    const auto allowed = [] {
+        return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    };
+    const std::size_t before = allowed();
+    const Tracer tracer(sphere_shape());
+    EXPECT_EQ(allowed(), before);
 }
 
 TEST(Render, StopsWhenAsked) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "verdigris/error.h"
+#include "verdigris/pixels/parallel_rows.h"
 
 namespace verdigris {
 
@@ -28,7 +29,8 @@ struct Tracer::State {
 
 Tracer::Tracer(const Shape& shape) : state_(std::make_unique<State>()) {
     State& s = *state_;
-    s.device = rtcNewDevice("threads=1");
+    // Not "threads=1": that would limit all of oneTBB for as long as the device lives.
+    s.device = rtcNewDevice(nullptr);
     if (!s.device) throw Error(ErrorCode::failed, "Embree cannot trace rays on this machine");
     s.scene = rtcNewScene(s.device);
     rtcSetSceneFlags(s.scene, RTC_SCENE_FLAG_ROBUST);
@@ -45,7 +47,8 @@ Tracer::Tracer(const Shape& shape) : state_(std::make_unique<State>()) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(s.scene, geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(s.scene);
+    // On several threads the tree need not be the same twice.
+    on_one_thread([&] { rtcJoinCommitScene(s.scene); });
     s.check();
 }
 Tracer::~Tracer() = default;
