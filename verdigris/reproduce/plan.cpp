@@ -43,7 +43,7 @@ class Planner {
             if (options_.recordings.empty()) simulate(i);
         }
         judge("evaluate", "evaluate", "forecasters held out (Table 1, Figure 3)",
-              {"--forecasters", "affinergb,affinergb-ridge,backtest,auto"}, setting_.judge, 35);
+              {"--forecasters", "affinergb,affinergb-ridge,backtest,auto"}, setting_.judge, 100);
         judge("characterize", "characterize", "what the closed form needs (Table 2)", {},
               setting_.few_windows, options_.quick ? 20 : 38);
         judge("drift", "drift", "the camera's drift (Figure 4)", {}, setting_.judge, 25);
@@ -99,10 +99,10 @@ class Planner {
         struct Cost {
             double train, evaluate;
         };
-        static const std::map<std::string, Cost> kCosts{{"patinanet", {1950, 430}},
-                                                        {"convlstm", {3950, 530}},
-                                                        {"predformer", {2000, 430}},
-                                                        {"horizonnet", {3500, 690}}};
+        static const std::map<std::string, Cost> kCosts{{"patinanet", {1950, 600}},
+                                                        {"convlstm", {3950, 500}},
+                                                        {"predformer", {2000, 330}},
+                                                        {"horizonnet", {3500, 1040}}};
         std::vector<fs::path> inputs = recordings_;
         std::vector<std::string> checkpoints;
         for (int i = 0; i < 2; ++i) {
@@ -164,7 +164,7 @@ class Planner {
              {"-o", "materials", "--forecasters", forecasters, "--horizons",
               options_.quick ? "5,10,20" : "5,10,20,50"},
              setting_.materials},
-            inputs, {"materials"}, options_.quick ? 160 : 800);
+            inputs, {"materials"}, options_.quick ? 60 : 300);
     }
 
     void copper() {
