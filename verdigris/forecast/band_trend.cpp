@@ -18,6 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr int kLongestContext = 40;
+// chosen: from a fifth on it changes what a reader makes of the gain.
+constexpr double kMuchOfIt = 0.2, kMostOfIt = 0.9;
 
 /// What may move; the backdrop is held where it is known, whatever else is to be forecast.
 Mask specimen_of(const Context& context) {
@@ -133,7 +135,20 @@ double error_on(const Forecast& f, const Context& truth, int begin, int count, c
     return sum / count;
 }
 
-/// What the same method said of the end of the context when that was held back.
+/// Where a forecast starts before any trend: the last frame without its noise, as far as told.
+Image<SrgbF> level_of(const Forecast& f) {
+    Image<SrgbF> level = f.at(1);
+    const Image<SrgbF> next = f.at(2);
+    for (std::size_t i = 0; i < level.pixels().size(); ++i) {
+        SrgbF& c = level.pixels()[i];
+        const SrgbF n = next.pixels()[i];
+        c = {2 * c.r - n.r, 2 * c.g - n.g, 2 * c.b - n.b};
+    }
+    return level;
+}
+
+/// What the same method said of the end of the context when that was held back. Whoever reads of a
+/// gain takes it for foresight, so what the frame held still had of noise is told apart.
 std::string evidence(const Context& context, Method& method) {
     const int back = std::max(1, std::min(context.length() - 3, context.length() / 3));
     if (context.length() < 5) return "";
@@ -141,14 +156,28 @@ std::string evidence(const Context& context, Method& method) {
     const Context before = end_of(context, 0, seen);
     const Mask moving = specimen_of(context);
     const double still = error_on(persistence().forecast(before), context, seen, back, moving);
-    const double ours = error_on(forecast(before, false, method), context, seen, back, moving);
+    const Forecast forecast_before = forecast(before, false, method);
+    const double ours = error_on(forecast_before, context, seen, back, moving);
     if (!(still > 0)) return "";
     const double gain = 1 - ours / still;
     const std::string frames = back == 1 ? "frame was" : fmt::format("{} frames were", back);
     if (std::abs(gain) <= 0.005)
         return fmt::format("Held back, the last {} predicted as well as by holding still.", frames);
-    return fmt::format("Held back, the last {} predicted {:.0f} % {} than by holding still.",
-                       frames, 100 * std::abs(gain), gain > 0 ? "better" : "worse");
+    std::string part;
+    if (gain > 0 && forecast_before.trajectory.law.tabulated()) {
+        const Image<SrgbF> level = level_of(forecast_before);
+        double error = 0;
+        for (int i = 0; i < back; ++i)
+            error += mean_square_difference(level, context.frames[std::size_t(seen + i)], moving);
+        const double share = (1 - error / back / still) / gain;
+        if (share >= kMostOfIt)
+            part = ", nearly all of it by taking back the noise of one frame";
+        else if (share >= kMuchOfIt)
+            part = fmt::format(", {:.0f} points of it by taking back the noise of one frame",
+                               100 * share * gain);
+    }
+    return fmt::format("Held back, the last {} predicted {:.0f} % {} than by holding still{}.",
+                       frames, 100 * std::abs(gain), gain > 0 ? "better" : "worse", part);
 }
 
 }  // namespace

@@ -203,6 +203,18 @@ TEST(BandTrend, TellsHowItDidOnTheEndOfTheContext) {
     EXPECT_EQ(band_trend({.explain = false}).forecast(seen(scene, 6)).explanation, "");
 }
 
+TEST(BandTrend, TellsNoiseTakenBackFromForesight) {
+    const auto said = [](double pace, double sigma) {
+        const Scene scene = [pace](int t) { return plate(pace * t); };
+        return band_trend().forecast(seen(scene, 10, sigma)).explanation;
+    };
+    EXPECT_NE(said(0, 0.01).find("nearly all of it by taking back the noise"), std::string::npos)
+        << said(0, 0.01);
+    EXPECT_NE(said(0.5, 0.01).find("points of it by taking back the noise"), std::string::npos)
+        << said(0.5, 0.01);
+    EXPECT_EQ(said(1, 0.001).find("noise"), std::string::npos) << said(1, 0.001);
+}
+
 TEST(BandTrend, ItsIntervalsHoldOnItsOwnKindOfScene) {
     // A drift that bends slowly, and noise: over seeds, as often inside as they say.
     double inside80 = 0, inside95 = 0, all = 0;
