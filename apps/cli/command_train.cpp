@@ -118,6 +118,9 @@ void run(Session& session, Arguments a) {
         sources.push_back({o.source_name, &o, plan.splits->train, plan.splits->validation});
     }
     session.say(fmt::format("training  {}", a.model));
+    if (protocol.area == EvaluatedArea::specimen) {
+        session.say("          on whole frames: the protocol's area, specimen, is for judging");
+    }
     for (const TrainingSource& s : sources) {
         session.say(fmt::format(
             "          on samples {} to {} of {}; the epoch is chosen on {} "

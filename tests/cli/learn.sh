@@ -21,6 +21,13 @@ grep -q '"parameters": 170623' "$scratch/train.json" || fail "not the paper's si
 [ "$(wc -l <"$runs/chamber/metrics.jsonl")" -eq 2 ] || fail "not a line per epoch"
 "$verdigris" train patinanet --source "$air" "${train[@]}" --epochs 1 -o "$runs/air" --quiet || fail "train failed"
 
+# A protocol's area is for judging: it is not refused, and what is learned from is said.
+sed 's/^area = .*/area = "specimen"/' "$runs/chamber/protocol.toml" >"$scratch/specimen.toml"
+grep -q '^area = "specimen"' "$scratch/specimen.toml" || fail "a run's protocol has no area"
+"$verdigris" train patinanet --source "$air" --protocol "$scratch/specimen.toml" --train-windows 4 --batch 4 --threads 1 \
+  --epochs 1 -o "$runs/area" >"$scratch/said" || fail "train refused a protocol"
+grep -q "whole frames: the protocol's area" "$scratch/said" || fail "train does not say what it learns from"
+
 # Judged: each checkpoint on the recording that it did not learn from.
 both=$runs/chamber/best.safetensors,$runs/air/best.safetensors,affinergb
 "$verdigris" evaluate "$chamber" "$air" "${few[@]}" --windows 12 --forecasters "$both" -o "$scratch/ev" --json \
