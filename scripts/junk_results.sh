@@ -10,36 +10,22 @@ verdigris=${VERDIGRIS:-build/release/bin/verdigris}
 [ -x "$verdigris" ] || scripts/build.sh release
 out=out/junk
 mkdir -p "$out"
-# made NAME PRESET SECTION.KEY=VALUE...: a simulated recording with other numbers in its specification.
-made() {
-  local name=$1 preset=$2 setting section key
-  shift 2
-  [ -e "$out/$name.mkv" ] && return
-  "$verdigris" simulate --preset "$preset" --seed 501 --size 320x240 -o "$out/.spec.mkv" --frames 20 --quiet --force
-  cp "$out/.spec.spec.toml" "$out/$name.toml"
-  for setting in frames.count=984 frames.units=98.4 "$@"; do
-    section=${setting%%.*} key=${setting%%=*}
-    key=${key#*.}
-    sed -i "/^\[$section\]/,/^$/ s|^$key = [^#]*|$key = ${setting#*=} |" "$out/$name.toml"
-    grep -q "^$key = ${setting#*=} " "$out/$name.toml" || { echo "no $key in a specification" >&2; exit 1; }
-  done
-  "$verdigris" simulate --spec "$out/$name.toml" -o "$out/$name.mkv" --quiet
-  rm -f "$out"/.spec.*
-}
+. scripts/simulated.sh
 # spoiled NAME FROM FILTER: a recording through a filter of ffmpeg, without loss.
 spoiled() {
   [ -e "$out/$1.mkv" ] && return
   ffmpeg -nostdin -v error -i "$out/$2.mkv" -vf "$3" -c:v ffv1 -y "$out/.$1.mkv"
   mv "$out/.$1.mkv" "$out/$1.mkv"
 }
-made aging chamber
-made still chamber oxide.rate=1e-9
-made noise chamber oxide.rate=1e-9 camera.read_noise=0.02
-made jitter chamber oxide.rate=1e-9 camera.jitter=0.03
-made jitter-aging chamber camera.jitter=0.03
-made jitter-no-backdrop chamber camera.jitter=0.03 scene.width=8 scene.height=8
-made bands chamber oxide.rate=1e-9 camera.flicker=0.05
-made drift chamber oxide.rate=1e-9 camera.light_drift=0.1
+made "$out/aging.mkv" chamber 501 320x240
+made "$out/still.mkv" chamber 501 320x240 oxide.rate=1e-9
+made "$out/noise.mkv" chamber 501 320x240 oxide.rate=1e-9 camera.read_noise=0.02
+made "$out/jitter.mkv" chamber 501 320x240 oxide.rate=1e-9 camera.jitter=0.03
+made "$out/jitter-aging.mkv" chamber 501 320x240 camera.jitter=0.03
+made "$out/jitter-no-backdrop.mkv" chamber 501 320x240 camera.jitter=0.03 scene.width=8 scene.height=8
+made "$out/bands.mkv" chamber 501 320x240 oxide.rate=1e-9 camera.flicker=0.05
+made "$out/flicker-no-backdrop.mkv" chamber 501 320x240 oxide.rate=1e-9 camera.jitter=0.03 scene.width=8 scene.height=8
+made "$out/drift.mkv" chamber 501 320x240 oxide.rate=1e-9 camera.light_drift=0.1
 spoiled switched-on still "eq=brightness=0.2:enable='gte(n,492)'"
 spoiled switched-on-aging aging "eq=brightness=0.2:enable='gte(n,492)'"
 spoiled switching still "eq=brightness=0.1:enable='lt(mod(n,37),18)'"

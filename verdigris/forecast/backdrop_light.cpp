@@ -86,6 +86,11 @@ bool explains_all(const Context& context, const Light& light, const Mask& inside
 
 }  // namespace
 
+bool shows_light(const Context& context) {
+    if (context.specimen.empty() && context.backdrop.empty()) return false;
+    return std::int64_t(sample_inside(backdrop(context), kMostPixels).size()) >= kFewestPixels;
+}
+
 std::vector<std::array<double, 3>> backdrop_light(const Context& context) {
     const Light none(context.frames.size(), {1, 1, 1});
     if (!context.specimen.empty() || !context.backdrop.empty()) {

@@ -15,6 +15,9 @@ namespace verdigris {
 /// gain per frame is all that happens to it, noise aside; else all 1.
 std::vector<std::array<double, 3>> backdrop_light(const Context& context);
 
+/// Is there backdrop enough to see the light on?
+bool shows_light(const Context& context);
+
 /// `frame` with its linear light multiplied by `gain`.
 Image<SrgbF> relit(const Image<SrgbF>& frame, const std::array<double, 3>& gain);
 

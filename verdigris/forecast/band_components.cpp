@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "verdigris/forecast/backdrop_light.h"
 #include "verdigris/forecast/change_part.h"
 #include "verdigris/forecast/context_pixels.h"
 #include "verdigris/pixels/parallel_rows.h"
@@ -87,11 +88,17 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     const TrendModels& trends = models.of(int(rest.size()));
     const double area = double(count_inside(moving));
     Components out;
+    if (design.gray && design.light && !shows_light(context)) {
+        const GrayPart part(context, moving, rest);
+        out.all.push_back(forecast_component(part, moments_of(part), design.global_count, trends));
+        out.all.back().common = true;
+        part.subtract(rest);
+    }
     if (design.global) {
         const AffinePart part(context, moving, rest);
         const PartMoments moments = moments_of(part);
         out.all.push_back(forecast_component(part, moments, design.global_count, trends));
-        out.has_global = !out.all.front().terms.empty();
+        out.all.back().common = true;
         out.global_energy = moments.energy;
         part.subtract(rest);
     }

@@ -35,6 +35,7 @@ struct Component {
     Trend trend;
     Eigen::MatrixXd increments;  ///< mean products of its increments
     double count = 0;            ///< independent parts of it
+    bool common = false;         ///< all of the specimen shares it
 };
 
 /// Grids of models, made once for each number of increments. For several threads at once.
@@ -50,8 +51,7 @@ class TrendModelsCache {
 };
 
 struct Components {
-    std::vector<Component> all;  ///< the global drift first, if there is any change of it
-    bool has_global = false;
+    std::vector<Component> all;  ///< from what all share to what each pixel has
     /// Mean square of the channels of the global increments, and per value of all others.
     SrgbF global_energy{};
     Image<SrgbF> local_energy;

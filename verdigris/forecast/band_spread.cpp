@@ -70,11 +70,8 @@ Spread spread_of(const Context& context, const Mask& moving, const Components& c
     const auto units = Eigen::Index(kTrendUnits.size());
     VectorXd common = light_slope(context.frames.back(), moving) * light_variance(context, models);
     VectorXd own = VectorXd::Zero(units);
-    for (std::size_t i = 0; i < components.all.size(); ++i) {
-        const Component& c = components.all[i];
-        VectorXd& to = i == 0 && components.has_global ? common : own;
-        to += c.trend.error + withheld(c, held);
-    }
+    for (const Component& c : components.all)
+        (c.common ? common : own) += c.trend.error + withheld(c, held);
     Spread spread;
     const SrgbF e = components.global_energy;
     const float mean = (e.r + e.g + e.b) / 3;

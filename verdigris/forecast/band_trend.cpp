@@ -106,14 +106,17 @@ Forecast forecast(const Context& context, bool clamp, Method& method) {
     const int held = std::max(trusted_until(components.all, method.design.confidence), 0);
     f.trajectory = joined(context, components.all, held, clamp);
     f.spread = spread_of(context, moving, components, held, models);
-    const auto& global = components.all.front();
-    if (global.trend.event > 0.9) {
-        f.explanation =
-            global.trend.outlier
-                ? fmt::format("Frame {} of {} is unlike its neighbors and does not count. ",
-                              global.trend.event_frame + 1, context.length())
-                : fmt::format("The step before frame {} of {} is not carried on. ",
-                              global.trend.event_frame + 1, context.length());
+    // What all of the specimen shares tells best.
+    const auto event_of = [](const Component& c) { return c.common ? c.trend.event : 0; };
+    const Trend& told = std::ranges::max_element(components.all, {}, event_of)->trend;
+    if (told.event > 0.9) {
+        f.explanation = told.outlier
+                            ? fmt::format(
+                                  "Frame {} of {} is unlike its neighbors and does not "
+                                  "count. ",
+                                  told.event_frame + 1, context.length())
+                            : fmt::format("The step before frame {} of {} is not carried on. ",
+                                          told.event_frame + 1, context.length());
     }
     return f;
 }

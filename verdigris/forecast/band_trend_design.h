@@ -20,6 +20,7 @@ struct TrendPrior {
 /// The parts of the method and its constants; docs/models/bandtrend.md. What is off is an ablation.
 struct BandTrendDesign {
     bool light = true;   ///< frames are brought under the light of the last one
+    bool gray = true;    ///< unless a backdrop shows it, light is told apart as one gain of all
     bool global = true;  ///< a drift that is affine in color, before all else
     bool local = true;   ///< what that leaves
     bool bands = true;   ///< split by how far it reaches; else it is one component
@@ -31,9 +32,9 @@ struct BandTrendDesign {
 };
 
 /// For ablations: "" is the method as it is; ":bands=0:confidence=0.5" differs in what is named.
-/// Keys: light, global, local, bands, slowing, bending, noise (0 or 1); events, doubt, confidence,
-/// level, global-count, band-count (numbers of 0 and more; counts of 1 and more). Throws
-/// Error{usage} naming the key.
+/// Keys: light, gray, global, local, bands, slowing, bending, noise (0 or 1); events, doubt,
+/// confidence, level, global-count, band-count (numbers of 0 and more; counts of 1 and more).
+/// Throws Error{usage} naming the key.
 BandTrendDesign band_trend_design(const std::string& text);
 
 }  // namespace verdigris

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "verdigris/forecast/backdrop_light.h"
 #include "verdigris/forecast/context_noise.h"
 #include "verdigris/pixels/parallel_rows.h"
 
@@ -15,6 +16,7 @@ using Eigen::Vector4d;
 
 constexpr int kChunk = 8192;  // values per task: sums are combined chunk by chunk, in order
 constexpr int kRowsPerTask = 32;
+constexpr double kNudge = 0.01;  // of light, to see what a change of it does to a picture
 
 int rows_per_chunk(int width) {
     return std::max(1, kChunk / width);
@@ -143,6 +145,61 @@ ColorField AffinePart::combined(const Eigen::RowVectorXd& weights) const {
     }
     return field_of(moving(),
                     [&](int k, int y, float* out) { row_of(fit[std::size_t(k)], y, out); });
+}
+
+GrayPart::GrayPart(const Context& context, const Mask& moving, const Increments& increments)
+    : ChangePart(moving), slope_(mean_color(context.frames)) {
+    const double nudge = std::log1p(kNudge);
+    const Image<SrgbF> brighter = relit(slope_, {1 + kNudge, 1 + kNudge, 1 + kNudge});
+    for (std::size_t i = 0; i < slope_.pixels().size(); ++i) {
+        SrgbF& c = slope_.pixels()[i];
+        const SrgbF b = brighter.pixels()[i];
+        c = {float(double(b.r - c.r) / nudge), float(double(b.g - c.g) / nudge),
+             float(double(b.b - c.b) / nudge)};
+    }
+    const auto q = Eigen::Index(increments.size());
+    const auto parts =
+        map_rows<Eigen::VectorXd>(slope_.height(), rows_per_chunk(slope_.width()), [&](RowRun run) {
+            Eigen::VectorXd sums = Eigen::VectorXd::Zero(q + 1);
+            for (int y = run.begin; y < run.end; ++y) {
+                const std::size_t row = std::size_t(y) * std::size_t(slope_.width());
+                for (int x = 0; x < slope_.width(); ++x) {
+                    if (moving(x, y) == 0) continue;
+                    const SrgbF s = slope_(x, y);
+                    sums[q] += double(s.r) * double(s.r) + double(s.g) * double(s.g) +
+                               double(s.b) * double(s.b);
+                    for (Eigen::Index i = 0; i < q; ++i) {
+                        const ColorField& d = increments[std::size_t(i)];
+                        const std::size_t at = row + std::size_t(x);
+                        sums[i] += double(s.r) * double(d[0][at]) + double(s.g) * double(d[1][at]) +
+                                   double(s.b) * double(d[2][at]);
+                    }
+                }
+            }
+            return sums;
+        });
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(q + 1);
+    for (const Eigen::VectorXd& p : parts) sums += p;
+    gains_ = sums[q] > 0 ? Eigen::VectorXd(sums.head(q) / sums[q]) : Eigen::VectorXd::Zero(q);
+}
+
+void GrayPart::row_of(double gain, int channel, int y, float* out) const {
+    const SrgbF* slope = slope_.row(y);
+    const std::uint8_t* inside = moving().row(y);
+    const float g = float(gain);
+    for (int x = 0; x < slope_.width(); ++x) {
+        const SrgbF s = slope[x];
+        out[x] = inside[x] ? g * (channel == 0 ? s.r : channel == 1 ? s.g : s.b) : 0;
+    }
+}
+
+void GrayPart::row(int increment, int channel, int y, float* out) const {
+    row_of(gains_[increment], channel, y, out);
+}
+
+ColorField GrayPart::combined(const Eigen::RowVectorXd& weights) const {
+    const double gain = weights * gains_;
+    return field_of(moving(), [&](int k, int y, float* out) { row_of(gain, k, y, out); });
 }
 
 SmoothPart::SmoothPart(const Increments& increments, const Mask& moving, int sigma)

@@ -46,6 +46,21 @@ class AffinePart : public ChangePart {
     Eigen::MatrixXd fit_;  ///< [1 and red, green, blue x channels of increments]
 };
 
+/// Of each increment, what one gain of all light would do to it, as light, exposure and an iris do.
+class GrayPart : public ChangePart {
+  public:
+    GrayPart(const Context& context, const Mask& moving, const Increments& increments);
+    int increments() const override { return int(gains_.size()); }
+    void row(int increment, int channel, int y, float* out) const override;
+    ColorField combined(const Eigen::RowVectorXd& weights) const override;
+
+  private:
+    void row_of(double gain, int channel, int y, float* out) const;
+
+    Image<SrgbF> slope_;     ///< of the encoded mean color by the log of the light
+    Eigen::VectorXd gains_;  ///< least-squares log gain of each increment
+};
+
 /// Each increment under a Gaussian.
 class SmoothPart : public ChangePart {
   public:
