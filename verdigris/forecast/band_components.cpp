@@ -91,7 +91,7 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     if (design.gray && design.light && !shows_light(context)) {
         const GrayPart part(context, moving, rest);
         out.all.push_back(forecast_component(part, moments_of(part), design.global_count, trends));
-        out.all.back().common = true;
+        out.all.back().common = out.all.back().gray = true;
         part.subtract(rest);
     }
     if (design.global) {

@@ -36,6 +36,8 @@ struct Component {
     Eigen::MatrixXd increments;  ///< mean products of its increments
     double count = 0;            ///< independent parts of it
     bool common = false;         ///< all of the specimen shares it
+    bool gray = false;           ///< one gain of all light
+    int held = 0;                ///< it stays as it is at this one of kTrendUnits
 };
 
 /// Grids of models, made once for each number of increments. For several threads at once.

@@ -41,19 +41,21 @@ VectorXd light_variance(const Context& context, TrendModelsCache& models) {
 }
 
 /// Mean square of what a component still changes after it is held.
-VectorXd withheld(const Component& c, int held) {
-    const MatrixXd less = c.trend.weights.rowwise() - c.trend.weights.row(held);
+VectorXd withheld(const Component& c) {
+    const MatrixXd less = c.trend.weights.rowwise() - c.trend.weights.row(c.held);
     VectorXd out = (less * c.increments).cwiseProduct(less).rowwise().sum();
-    out.head(held + 1).setZero();
+    out.head(c.held + 1).setZero();
     return out;
 }
 
 }  // namespace
 
-VectorXd expected_advantage(const std::vector<Component>& components) {
+VectorXd expected_advantage(const std::vector<Component>& components,
+                            const std::function<bool(const Component&)>& counts) {
     const auto units = Eigen::Index(kTrendUnits.size());
     VectorXd gain = VectorXd::Zero(units), variance = VectorXd::Zero(units);
     for (const Component& c : components) {
+        if (!counts(c)) continue;
         // |truth|^2 - |truth - forecast|^2 = |forecast|^2 + 2 forecast * error of it
         gain += c.trend.change;
         variance += 4 / c.count * c.trend.change.cwiseProduct(c.trend.error);
@@ -65,13 +67,13 @@ VectorXd expected_advantage(const std::vector<Component>& components) {
     return out;
 }
 
-Spread spread_of(const Context& context, const Mask& moving, const Components& components, int held,
+Spread spread_of(const Context& context, const Mask& moving, const Components& components,
                  TrendModelsCache& models) {
     const auto units = Eigen::Index(kTrendUnits.size());
     VectorXd common = light_slope(context.frames.back(), moving) * light_variance(context, models);
     VectorXd own = VectorXd::Zero(units);
     for (const Component& c : components.all)
-        (c.common ? common : own) += c.trend.error + withheld(c, held);
+        (c.common ? common : own) += c.trend.error + withheld(c);
     Spread spread;
     const SrgbF e = components.global_energy;
     const float mean = (e.r + e.g + e.b) / 3;

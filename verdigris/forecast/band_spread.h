@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "verdigris/forecast/band_components.h"
@@ -13,13 +14,15 @@
 
 namespace verdigris {
 
-/// By how many standard deviations the forecast is expected to be closer than the last frame, in
-/// squared error, at each of kTrendUnits. Infinite where nothing is forecast to change.
-Eigen::VectorXd expected_advantage(const std::vector<Component>& components);
+/// By how many standard deviations the forecast of those that count is expected to be closer than
+/// the last frame, in squared error, at each of kTrendUnits. Infinite where nothing is forecast to
+/// change.
+Eigen::VectorXd expected_advantage(const std::vector<Component>& components,
+                                   const std::function<bool(const Component&)>& counts);
 
-/// Of a forecast that is held from kTrendUnits[held] on. Includes light that wanders, as the
+/// Of a forecast whose components are held. Includes light that wanders, as the
 /// backdrop shows it: where it will be is not known.
-Spread spread_of(const Context& context, const Mask& moving, const Components& components, int held,
+Spread spread_of(const Context& context, const Mask& moving, const Components& components,
                  TrendModelsCache& models);
 
 }  // namespace verdigris

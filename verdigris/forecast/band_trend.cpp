@@ -37,23 +37,40 @@ Forecast held(const Context& context, std::string why) {
     return f;
 }
 
-/// The last of kTrendUnits until which the forecast is confident to beat holding still; -1: none.
-int trusted_until(const std::vector<Component>& components, double confidence) {
-    const Eigen::VectorXd advantage = expected_advantage(components);
+enum class Which { all, gray, not_gray };
+
+/// The last of kTrendUnits until which these are confident to beat holding still; the first at
+/// least, because that also takes the last frame's noise back.
+int trusted_until(const std::vector<Component>& components, Which which, double confidence) {
+    const Eigen::VectorXd advantage = expected_advantage(components, [which](const Component& c) {
+        return which == Which::all || c.gray == (which == Which::gray);
+    });
     int last = -1;
     while (last + 1 < int(advantage.size()) && advantage[last + 1] >= confidence) ++last;
-    return last;
+    return std::max(last, 0);
 }
 
-/// All components as one trajectory of two terms, held from kTrendUnits[held] on.
-Trajectory joined(const Context& context, const std::vector<Component>& components, int held,
-                  bool clamp) {
+/// All is followed while all together is sure enough. Light that jitters is never sure, and what it
+/// leaves may well be: the gray part, and all but it, are each followed as long as they are by
+/// themselves.
+void hold(std::vector<Component>& components, double confidence) {
+    const int all = trusted_until(components, Which::all, confidence);
+    const int gray = trusted_until(components, Which::gray, confidence);
+    const int others = trusted_until(components, Which::not_gray, confidence);
+    for (Component& c : components) c.held = std::max(all, c.gray ? gray : others);
+}
+
+/// All components as one trajectory of two terms, each held from where it is.
+Trajectory joined(const Context& context, const std::vector<Component>& components, bool clamp) {
     const auto count = Eigen::Index(components.size()) * kTerms;
     const auto units = Eigen::Index(kTrendUnits.size());
     MatrixXd weights(units, count), gram = MatrixXd::Zero(count, count);
     for (std::size_t i = 0; i < components.size(); ++i) {
         const auto at = Eigen::Index(i) * kTerms;
-        weights.middleCols(at, kTerms) = components[i].laws;
+        MatrixXd laws = components[i].laws;
+        const Eigen::Index held = components[i].held;
+        for (Eigen::Index u = held + 1; u < units; ++u) laws.row(u) = laws.row(held);
+        weights.middleCols(at, kTerms) = laws;
         gram.block(at, at, kTerms, kTerms) = components[i].gram;
     }
     const FewTerms few = few_terms(weights, gram);
@@ -67,7 +84,8 @@ Trajectory joined(const Context& context, const std::vector<Component>& componen
     t.law.order = 2;
     t.law.context = context.length();
     t.clamp = clamp;
-    for (Eigen::Index u = 0; u <= held; ++u)
+    const int last = std::ranges::max(components, {}, &Component::held).held;
+    for (Eigen::Index u = 0; u <= last; ++u)
         t.law.nodes.push_back({kTrendUnits[std::size_t(u)], few.laws(u, 0), few.laws(u, 1)});
     return t;
 }
@@ -97,15 +115,15 @@ Forecast forecast(const Context& context, bool clamp, Method& method) {
         return held(context, "With 1 frame observed there is no change to carry on: held.");
     if (count_inside(moving) < 16)
         return held(context, "No usable pixel lies on the specimen, so the last state is held.");
-    const Components components = components_of(context, moving, method.design, models);
+    Components components = components_of(context, moving, method.design, models);
     if (components.all.empty())
         return held(context, "Nothing changed in the context, so the last state is held.");
     Forecast f;
     f.forecaster = "bandtrend";
     f.context_length = context.length();
-    const int held = std::max(trusted_until(components.all, method.design.confidence), 0);
-    f.trajectory = joined(context, components.all, held, clamp);
-    f.spread = spread_of(context, moving, components, held, models);
+    hold(components.all, method.design.confidence);
+    f.trajectory = joined(context, components.all, clamp);
+    f.spread = spread_of(context, moving, components, models);
     // What all of the specimen shares tells best.
     const auto event_of = [](const Component& c) { return c.common ? c.trend.event : 0; };
     const Trend& told = std::ranges::max_element(components.all, {}, event_of)->trend;
