@@ -2,10 +2,18 @@
 // One map, flat: as large as fits, or nearer.
 import * as THREE from "three";
 import { type Bake } from "./bake";
+import { type ViewerDocument } from "./data";
 import { flatFragment, flatVertex } from "./flat_shaders";
+import { type Overlay } from "./uncertainty";
 
-export const kMaps = ["lit", "albedo", "normal", "roughness", "metallic", "height", "coverage"] as const;
+export const kMaps = ["lit", "albedo", "normal", "roughness", "metallic", "height", "coverage",
+  "uncertainty"] as const;
 export type MapView = (typeof kMaps)[number];
+
+/** Those that a document has. */
+export function mapsOf(doc: ViewerDocument): readonly MapView[] {
+  return doc.spread ? kMaps : kMaps.filter((name) => name !== "uncertainty");
+}
 
 /** How to read a map. `scale`: what its two ends mean, for those that are one number. */
 const kMapNotes: Record<MapView, { note: string; scale?: [string, string] }> = {
@@ -16,6 +24,7 @@ const kMapNotes: Record<MapView, { note: string; scale?: [string, string] }> = {
   metallic: { note: "", scale: ["patina", "bare metal"] },
   height: { note: "", scale: ["low", "high (relative)"] },
   coverage: { note: "", scale: ["as observed", "fully changed"] },
+  uncertainty: { note: "" },   // in numbers: legend.ts
 };
 
 export function mapNote(view: MapView, observedIsClean: boolean): { note: string; scale?: [string, string] } {
@@ -32,26 +41,29 @@ export class FlatView {
   private readonly camera = new THREE.Camera();
   private readonly scale = new THREE.Vector2();
   private readonly shift = new THREE.Vector2();
-  private readonly material = new THREE.RawShaderMaterial({
-    glslVersion: THREE.GLSL3, vertexShader: flatVertex, fragmentShader: flatFragment,
-    uniforms: { u_albedo: { value: null }, u_coverage: { value: null }, u_orm: { value: null },
-      u_normal: { value: null }, u_map: { value: 0 }, u_texels: { value: false },
-      u_scale: { value: this.scale }, u_shift: { value: this.shift } },
-    depthTest: false, depthWrite: false,
-  });
+  private readonly material: THREE.RawShaderMaterial;
   private readonly fit = new THREE.Vector2(1, 1);
   private zoom = 1;
 
   constructor(private readonly renderer: THREE.WebGLRenderer, private readonly aspect: number,
-              private readonly texelsAcross: number) {
+              private readonly texelsAcross: number, overlay: Overlay) {
+    this.material = new THREE.RawShaderMaterial({
+      glslVersion: THREE.GLSL3, vertexShader: flatVertex, fragmentShader: flatFragment,
+      uniforms: { u_albedo: { value: null }, u_coverage: { value: null }, u_orm: { value: null },
+        u_normal: { value: null }, u_map: { value: 0 }, u_texels: { value: false },
+        u_scale: { value: this.scale }, u_shift: { value: this.shift },
+        u_unsure: { value: null }, ...overlay },
+      depthTest: false, depthWrite: false,
+    });
     const quad = new THREE.Mesh(new THREE.PlaneGeometry(2, 2), this.material);
     quad.frustumCulled = false;
     this.scene.add(quad);
   }
 
-  draw(bake: Bake, view: MapView, width: number, height: number): void {
-    // Room for the legend below and the badge above: 52 pixels each.
-    const tall = Math.max(1 - 104 / height, 0.5), wide = 0.94;
+  /** `below`: pixels of the stage that the legend takes. */
+  draw(bake: Bake, view: MapView, width: number, height: number, below: number): void {
+    // Room for the legend below, and above as much, where the badge is.
+    const room = Math.max(52, below + 24), tall = Math.max(1 - (2 * room) / height, 0.5), wide = 0.94;
     const across = Math.min(wide, (tall * height * this.aspect) / width);
     this.fit.set(across, (across * width) / this.aspect / height);
     this.scale.copy(this.fit).multiplyScalar(this.zoom);
@@ -61,6 +73,7 @@ export class FlatView {
     u.u_coverage!.value = bake.frame.texture;
     u.u_orm!.value = bake.orm.texture;
     u.u_normal!.value = bake.normal.texture;
+    u.u_unsure!.value = bake.unsure?.texture ?? null;
     u.u_map!.value = kMaps.indexOf(view);
     u.u_texels!.value = (this.scale.x * width) / this.texelsAcross > kShowTexels;
     this.renderer.render(this.scene, this.camera);

@@ -5,6 +5,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { type Bake } from "./bake";
 import { type Shape, makeShape } from "./shapes";
 import { Studio } from "./studio";
+import { type Overlay, paintOver } from "./uncertainty";
 
 export class Stage {
   readonly controls: OrbitControls;
@@ -16,7 +17,7 @@ export class Stage {
   private readonly materials = new Map<Bake, THREE.MeshStandardMaterial>();
 
   constructor(private readonly renderer: THREE.WebGLRenderer, private readonly aspect: number,
-              onChange: () => void) {
+              private readonly overlay: Overlay, onChange: () => void) {
     renderer.toneMapping = THREE.NeutralToneMapping;
     renderer.toneMappingExposure = 1.0;
     this.studio = new Studio(renderer, this.scene);
@@ -73,6 +74,7 @@ export class Stage {
         // The normal map is +Y up while v points down, as in glTF.
         normalScale: new THREE.Vector2(1, -1),
       });
+      if (bake.unsure) paintOver(material, this.overlay, bake.unsure.texture);
       this.materials.set(bake, material);
     }
     return material;
