@@ -137,7 +137,7 @@ void draw_legends(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& t
     if (s.uncertainty.empty()) return;
     draw_legend(canvas, s.uncertainty_legend, s.uncertainty_heading_y,
                 {"HOW FAR OFF, 4 TIMES IN 5", fmt::format("{:g}", codes / 2),
-                 fmt::format("{:g} codes or more", codes), tiles.uncertainty_note});
+                 fmt::format("{:g} or more", codes), tiles.uncertainty_note});
 }
 
 Ink ink_of(Origin origin) {

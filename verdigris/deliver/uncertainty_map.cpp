@@ -32,6 +32,10 @@ struct Width {
     }
 };
 
+// chosen: what is far off in fifty units must not leave the next five in the dark, where nobody
+// sees which part of the specimen is less sure.
+constexpr double kLargestGrowth = 4;
+
 double round_codes(double codes) {
     for (double decade : {1.0, 10.0, 100.0}) {
         for (double step : {1.0, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0, 5.0, 6.0, 8.0}) {
@@ -90,11 +94,12 @@ double uncertainty_full_codes(const Delivery& delivery) {
     if (shares.empty()) return 1;
     const auto nth = shares.begin() + std::ptrdiff_t(kPercentile * double(shares.size() - 1));
     std::nth_element(shares.begin(), nth, shares.end());
-    double largest = 0;
+    double first = 0, largest = 0;
     for (const double h : delivery.horizons) {
         largest = std::max(largest, double(Width(spread, h)(*nth)));
+        if (first == 0) first = largest;
     }
-    return round_codes(255 * largest);
+    return round_codes(255 * std::min(largest, kLargestGrowth * first));
 }
 
 Image<SrgbU8> uncertainty_picture(const Image<float>& half_widths, const Image<float>& share,

@@ -60,10 +60,10 @@ export class FlatView {
     this.scene.add(quad);
   }
 
-  /** `below`: pixels of the stage that the legend takes. */
+  /** `below`: where the legend begins, in pixels from the bottom of the stage. */
   draw(bake: Bake, view: MapView, width: number, height: number, below: number): void {
     // Room for the legend below, and above as much, where the badge is.
-    const room = Math.max(52, below + 24), tall = Math.max(1 - (2 * room) / height, 0.5), wide = 0.94;
+    const room = Math.max(52, below + 12), tall = Math.max(1 - (2 * room) / height, 0.5), wide = 0.94;
     const across = Math.min(wide, (tall * height * this.aspect) / width);
     this.fit.set(across, (across * width) / this.aspect / height);
     this.scale.copy(this.fit).multiplyScalar(this.zoom);

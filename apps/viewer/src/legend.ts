@@ -27,15 +27,17 @@ export class Legend {
     this.put("legend-note", note);
   }
 
-  /** Pixels that it takes from the bottom of the stage. */
-  get height(): number { return this.box.hidden ? 0 : this.box.offsetHeight; }
+  /** Pixels from the bottom of the stage to its upper edge. */
+  get below(): number {
+    return this.box.hidden ? 0 : this.box.parentElement!.clientHeight - this.box.offsetTop;
+  }
 
   private uncertainty(view: MapView, age: number): { note: string; scale: [string, string] } {
     const codes = Number((this.doc.spread?.full_codes ?? 0).toPrecision(4));
     const scale: [string, string] = ["0", `${codes} codes of 255 or more`];
     if (age < 0.05) return { note: "Observed: nothing is forecast here, so there is no interval.", scale };
-    const rest = view === "uncertainty" ? "Gray is held" : "What is held stays as it is";
-    return { note: `How far off a pixel is at most, nominally 4 times in 5 (mean of R, G, B). ${rest}.`, scale };
+    const rest = view === "uncertainty" ? "Gray: held." : "Unpainted: surest, or held.";
+    return { note: "Nominally 4 times in 5 a pixel is off by at most this (root mean square of R, G, B). " + rest, scale };
   }
 
   private put(id: string, text: string): void {

@@ -72,8 +72,8 @@ async function start(api: TestApi): Promise<void> {
   const wipe = new Wipe(stageBox, redraw);
   const one = (bake: Bake, width: number, height: number) => {
     if (over() || view === "uncertainty") bake.bakeUncertainty();
-    if (view === "lit") stage.draw(bake);
-    else flat.draw(bake, view, width, height, legend.height);
+    if (view === "lit") stage.draw(bake, legend.below);
+    else flat.draw(bake, view, width, height, legend.below);
   };
 
   function draw(): void {

@@ -33,11 +33,14 @@ uniform float u_over;
 ${unsureColor}
 vec3 laid_over(vec3 light, vec4 at) {
   float share = unsure_share(at);
-  // chosen: what is surest by far stays as it is, and nothing jumps where the forecast begins.
-  float paint = u_over * at.a * smoothstep(0.0, 0.15, share);
-  vec3 color = unsure_color(share);
-  color = mix(color / 12.92, pow((color + 0.055) / 1.055, vec3(2.4)), step(0.04045, color));
+  // chosen: the surer, the more is seen of the material itself, and nothing jumps where the
+  // forecast begins. Painted alike everywhere, the surest of all would be black.
+  float paint = u_over * at.a * smoothstep(0.0, 0.6, share);
+  // Mixed as encoded: in linear light what is bright in the picture would pass for unsure.
   float gray = min(dot(light, vec3(0.2126, 0.7152, 0.0722)), 1.0);
-  return mix(light, mix(vec3(gray), color, 0.6), paint);
+  gray = gray > 0.0031308 ? 1.055 * pow(gray, 1.0 / 2.4) - 0.055 : gray * 12.92;
+  vec3 color = mix(vec3(gray), unsure_color(share), 0.65);
+  color = mix(color / 12.92, pow((color + 0.055) / 1.055, vec3(2.4)), step(0.04045, color));
+  return mix(light, color, paint);
 }
 `;
