@@ -40,10 +40,12 @@ export class FlatView {
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.Camera();
   private readonly scale = new THREE.Vector2();
-  private readonly shift = new THREE.Vector2();
+  private readonly shift = new THREE.Vector2();   // what the hand moved
+  private readonly place = new THREE.Vector2();
   private readonly material: THREE.RawShaderMaterial;
   private readonly fit = new THREE.Vector2(1, 1);
   private zoom = 1;
+  private lift = 0;   // of the middle of the free space over that of the stage, -1 to 1 across it
 
   constructor(private readonly renderer: THREE.WebGLRenderer, private readonly aspect: number,
               private readonly texelsAcross: number, overlay: Overlay) {
@@ -51,7 +53,7 @@ export class FlatView {
       glslVersion: THREE.GLSL3, vertexShader: flatVertex, fragmentShader: flatFragment,
       uniforms: { u_albedo: { value: null }, u_coverage: { value: null }, u_orm: { value: null },
         u_normal: { value: null }, u_map: { value: 0 }, u_texels: { value: false },
-        u_scale: { value: this.scale }, u_shift: { value: this.shift },
+        u_scale: { value: this.scale }, u_shift: { value: this.place },
         u_unsure: { value: null }, ...overlay },
       depthTest: false, depthWrite: false,
     });
@@ -62,12 +64,15 @@ export class FlatView {
 
   /** `below`: where the legend begins, in pixels from the bottom of the stage. */
   draw(bake: Bake, view: MapView, width: number, height: number, below: number): void {
-    // Room for the legend below, and above as much, where the badge is.
-    const room = Math.max(52, below + 12), tall = Math.max(1 - (2 * room) / height, 0.5), wide = 0.94;
+    // Room for the legend below and the badge above: 52 pixels each, or what the legend takes.
+    const above = 52, room = Math.max(above, below + 12);
+    const tall = Math.max(1 - (above + room) / height, 0.4), wide = 0.94;
+    this.lift = Math.min((room - above) / height, 1 - tall);
     const across = Math.min(wide, (tall * height * this.aspect) / width);
     this.fit.set(across, (across * width) / this.aspect / height);
     this.scale.copy(this.fit).multiplyScalar(this.zoom);
     this.keepInSight();
+    this.place.set(this.shift.x, this.shift.y + this.lift);
     const u = this.material.uniforms;
     u.u_albedo!.value = bake.albedo.texture;
     u.u_coverage!.value = bake.frame.texture;
@@ -84,7 +89,8 @@ export class FlatView {
     const before = this.zoom;
     this.zoom = Math.min(Math.max(before * factor, 1), kNearest);
     const by = this.zoom / before;
-    this.shift.set(x + (this.shift.x - x) * by, y + (this.shift.y - y) * by);
+    const up = y - this.lift;
+    this.shift.set(x + (this.shift.x - x) * by, up + (this.shift.y - up) * by);
   }
   /** In the same units. */
   pan(dx: number, dy: number): void { this.shift.add({ x: dx, y: dy }); }
