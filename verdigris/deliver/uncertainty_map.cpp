@@ -32,14 +32,15 @@ struct Width {
     }
 };
 
-// chosen: what is far off in fifty units must not leave the next five in the dark, where nobody
-// sees which part of the specimen is less sure.
+// chosen: what is far off beyond the trust limit must not leave the next five units in the dark,
+// where nobody sees which part of the specimen is less sure.
 constexpr double kLargestGrowth = 4;
 
 double round_codes(double codes) {
     for (double decade : {1.0, 10.0, 100.0}) {
         for (double step : {1.0, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-            if (decade * step >= codes) return decade * step;
+            // A width is a float: what rounds to 8 needs no 10.
+            if (decade * step >= codes * (1 - 1e-6)) return decade * step;
         }
     }
     return 1000;
@@ -94,12 +95,15 @@ double uncertainty_full_codes(const Delivery& delivery) {
     if (shares.empty()) return 1;
     const auto nth = shares.begin() + std::ptrdiff_t(kPercentile * double(shares.size() - 1));
     std::nth_element(shares.begin(), nth, shares.end());
+    const double trusted = trusted_horizon(delivery);
     double first = 0, largest = 0;
     for (const double h : delivery.horizons) {
-        largest = std::max(largest, double(Width(spread, h)(*nth)));
-        if (first == 0) first = largest;
+        double width = double(Width(spread, h)(*nth));
+        if (first == 0) first = width;
+        if (h > trusted) width = std::min(width, kLargestGrowth * first);
+        largest = std::max(largest, width);
     }
-    return round_codes(255 * std::min(largest, kLargestGrowth * first));
+    return round_codes(255 * largest);
 }
 
 Image<SrgbU8> uncertainty_picture(const Image<float>& half_widths, const Image<float>& share,

@@ -22,9 +22,9 @@ Image<float> own_share(const Spread& spread, PictureSize extent);
 Image<float> half_width_map(const Spread& spread, const Image<float>& share, double horizon);
 
 /// Where the colors of the map end, in codes of 255: what 99.5 % of the pixels that move stay
-/// below at every delivered horizon, but no more than four times that of the first, rounded up to a
-/// number that is easily halved, 1 at least. 0 where nothing is stated. One scale for all horizons,
-/// so that growth is seen.
+/// below at every delivered horizon, of which those beyond trusted_horizon() count up to four times
+/// the first, rounded up to a number that is easily halved, 1 at least. 0 where nothing is stated.
+/// One scale for all horizons, so that growth is seen.
 double uncertainty_full_codes(const Delivery& delivery);
 
 /// The colors of `magma` up to `full` (encoded sRGB in 0..1), and a neutral dark gray where

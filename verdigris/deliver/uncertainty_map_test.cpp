@@ -100,11 +100,15 @@ TEST(UncertaintyMap, ItsScaleIsRoundHoldsTheWorstHorizonAndIgnoresAFewPixels) {
     EXPECT_EQ(full(81), 100);
     for (int i = 0; i < 7; ++i) spread.own(i, 0) = {900, 900, 900};  // of 1500
     EXPECT_EQ(full(3.9), 4);
-    // Four times what the first horizon has, if a later one has more.
-    spread.nodes = {{5, 0, variance(2)}, {20, 0, variance(7.9)}};
+    // A horizon beyond twice the context counts up to four times the first, one within in full.
+    made.delivery.horizons = {5, 20, 50};
+    spread.nodes = {{5, 0, variance(2)}, {20, 0, variance(3)}, {50, 0, variance(7.5)}};
     EXPECT_EQ(uncertainty_full_codes(made.delivery), 8);
-    spread.nodes.back().own = variance(70);
+    spread.nodes[2].own = variance(70);
     EXPECT_EQ(uncertainty_full_codes(made.delivery), 8);
+    spread.nodes[1].own = variance(12);
+    EXPECT_EQ(uncertainty_full_codes(made.delivery), 12);
+    made.delivery.horizons = {5, 20};
     for (int i = 7; i < 20; ++i) spread.own(i, 0) = {900, 900, 900};
     EXPECT_EQ(full(3.9), 120);
     for (SrgbF& c : spread.own.pixels()) c = {};
