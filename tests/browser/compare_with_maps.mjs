@@ -43,7 +43,8 @@ await withBrowser(async (context) => {
   assert.deepEqual(requests, []);
   assert.equal(await page.locator("#fault").isVisible(), false, await page.locator("#fault").textContent());
   const info = await page.evaluate(() => ({ width: window.verdigris.info.width,
-    height: window.verdigris.info.height, horizons: window.verdigris.info.horizons }));
+    height: window.verdigris.info.height, horizons: window.verdigris.info.horizons,
+    uncertainty: window.verdigris.info.uncertainty }));
   let compared = 0;
   for (const horizon of [0, ...info.horizons]) {
     const packs = await readdir(path.join(out, "textures"));
@@ -77,6 +78,14 @@ await withBrowser(async (context) => {
     }
   }
   assert.ok(compared > 0, "nothing was compared");
+  // What C++ says of all pixels in numbers is the root mean square of what the shader says of each.
+  for (const { horizon, pixel_80 } of info.uncertainty ?? []) {
+    const { uncertainty } = await readMaps(page, horizon, ["uncertainty"]);
+    const moving = uncertainty.data.filter((v) => v > 0);
+    const got = 255 * Math.sqrt(moving.reduce((s, v) => s + v * v, 0) / moving.length);
+    console.log(`+${horizon} half width: ${got.toFixed(3)}/255 of ${moving.length} pixels, told ${(255 * pixel_80).toFixed(3)}/255`);
+    assert.ok(Math.abs(got - 255 * pixel_80) < 0.02, `the half widths at +${horizon} disagree`);
+  }
   if (shots) {
     const last = info.horizons[info.horizons.length - 1];
     const shoot = async (name) => { await drawn(page); await page.screenshot({ path: path.join(shots, name) }); };

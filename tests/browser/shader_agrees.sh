@@ -7,7 +7,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$fixture" plate "$scratch/plate" 30 120
 "$verdigris" age "$scratch/plate" -o "$scratch/made" --quiet
-node "$here/compare_with_maps.mjs" "$scratch/made"
+node "$here/compare_with_maps.mjs" "$scratch/made" | tee "$scratch/made.log"
+grep -q 'half width: ' "$scratch/made.log" || { echo "no half width was compared"; exit 1; }
 "$verdigris" age "$scratch/plate" -o "$scratch/bent" --quiet --forecaster affinergb-full-2 --horizons 3,8.5
 node "$here/compare_with_maps.mjs" "$scratch/bent"
 if [ -d "$shared/real/copper_patinating" ]; then

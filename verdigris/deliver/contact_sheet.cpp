@@ -15,6 +15,7 @@
 #include "verdigris/deliver/sheet_notes.h"
 #include "verdigris/deliver/sheet_tiles.h"
 #include "verdigris/deliver/source_type.h"
+#include "verdigris/deliver/uncertainty.h"
 #include "verdigris/files/png.h"
 
 namespace verdigris {
@@ -83,6 +84,10 @@ void draw_frames(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& ti
         draw_tile(canvas, s.change[i], tile.change);
         put(canvas, at.x, s.change[i].y + label_y, s.column_width,
             fmt::format("mean {:.2g} %", 100 * tile.mean_change), kLabel);
+        if (s.uncertainty.empty()) continue;
+        draw_tile(canvas, s.uncertainty[i], tile.uncertainty);
+        put(canvas, at.x, s.uncertainty[i].y + label_y, s.column_width,
+            codes_text(tile.pixel_80) + " codes of 255", kLabel);
     }
     // "Now": where photographs end.
     const std::string now = "now";
@@ -94,9 +99,14 @@ void draw_frames(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& ti
     canvas.text(s.divider_x - now_width / 2, s.frames_heading_y, now, style);
 }
 
-void draw_legend(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& tiles) {
-    const Rect& at = s.legend;
-    canvas.text(at.x, s.change_heading_y, "CHANGE FROM LAST OBSERVED", kHeading);
+struct Legend {
+    std::string heading;
+    std::string half, full;  ///< of the scale, as they stand under the bar
+    std::string note;
+};
+
+void draw_legend(SheetCanvas& canvas, const Rect& at, int heading_y, const Legend& legend) {
+    canvas.text(at.x, heading_y, legend.heading, kHeading);
     const int bar_width = std::min(at.width, 320), bar_height = 16;
     Image<float> ramp(bar_width, bar_height);
     for (int y = 0; y < bar_height; ++y) {
@@ -106,20 +116,28 @@ void draw_legend(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& ti
     }
     const Rect bar{at.x, at.y, bar_width, bar_height};
     draw_tile(canvas, bar, magma(ramp, 1));
-    const double percent = 100 * tiles.change_scale;
     const TextWidth width = measure(kSmall);
     const double tick_y = at.y + bar_height + 22;
-    const std::string half = fmt::format("{:g}", percent / 2),
-                      full = fmt::format("{:g} % or more", percent);
     canvas.text(at.x, tick_y, "0", kSmall);
-    canvas.text(at.x + bar_width / 2.0 - width(half) / 2, tick_y, half, kSmall);
+    canvas.text(at.x + bar_width / 2.0 - width(legend.half) / 2, tick_y, legend.half, kSmall);
     // Right-aligned where there is room, so that the label stays under the bar.
-    canvas.text(at.x + bar_width - width(full), tick_y, full, kSmall);
+    canvas.text(at.x + bar_width - width(legend.full), tick_y, legend.full, kSmall);
     double y = tick_y + 34;
-    for (const std::string& line : wrapped(tiles.change_scale_note, at.width, 5, width)) {
+    for (const std::string& line : wrapped(legend.note, at.width, 5, width)) {
         canvas.text(at.x, y, line, kSmall);
         y += 22;
     }
+}
+
+void draw_legends(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& tiles) {
+    const double percent = 100 * tiles.change_scale, codes = tiles.uncertainty_full_codes;
+    draw_legend(canvas, s.legend, s.change_heading_y,
+                {"CHANGE FROM LAST OBSERVED", fmt::format("{:g}", percent / 2),
+                 fmt::format("{:g} % or more", percent), tiles.change_scale_note});
+    if (s.uncertainty.empty()) return;
+    draw_legend(canvas, s.uncertainty_legend, s.uncertainty_heading_y,
+                {"HOW FAR OFF, 4 TIMES IN 5", fmt::format("{:g}", codes / 2),
+                 fmt::format("{:g} or more", codes), tiles.uncertainty_note});
 }
 
 Ink ink_of(Origin origin) {
@@ -151,15 +169,16 @@ void draw_maps(SheetCanvas& canvas, const SheetLayout& s, const SheetTiles& tile
 
 Image<SrgbU8> draw_contact_sheet(const Delivery& delivery, const Progress& progress) {
     const SheetTiles tiles = make_sheet_tiles(delivery, progress);
-    const SheetLayout s = lay_out({tiles.picture, int(tiles.observed.size()),
-                                   int(tiles.forecast.size()), int(tiles.maps.size())});
+    const SheetLayout s =
+        lay_out({tiles.picture, int(tiles.observed.size()), int(tiles.forecast.size()),
+                 int(tiles.maps.size()), tiles.uncertainty_full_codes > 0});
     const SheetNotes notes(delivery, s.notes.width);
     const int footer_y = std::max(s.maps_bottom, s.notes.y + notes.height()) + 56;
 
     SheetCanvas canvas(s.width, footer_y + s.margin - 8, kGround);
     draw_header(canvas, delivery, s);
     draw_frames(canvas, s, tiles);
-    draw_legend(canvas, s, tiles);
+    draw_legends(canvas, s, tiles);
     if (s.chart.width > 0) {
         canvas.text(s.chart.x, s.change_heading_y, "MEAN CHANGE, BY UNITS", kHeading);
         draw_chart(canvas, s.chart, change_curve(delivery));

@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "verdigris/deliver/sheet_chart.h"
 #include "verdigris/deliver/sheet_layout.h"
 #include "verdigris/deliver/sheet_tiles.h"
 #include "verdigris/deliver/testing.h"
+#include "verdigris/deliver/uncertainty_map.h"
 #include "verdigris/deliver/visible_change.h"
 
 namespace verdigris {
@@ -84,10 +86,45 @@ TEST(ContactSheet, ShowsEveryTileWhereTheLayoutPutsIt) {
     expect_margins(sheet, 40);
 }
 
-TEST(ContactSheet, HasTextInEveryLabelPlace) {
-    const MadeDelivery made(64, 40);
+void make_unsure(MadeDelivery& made) {
+    made.forecast.spread.own = made.forecast.trajectory.base.clone();
+    for (SrgbF& c : made.forecast.spread.own.pixels()) c = {2 * c.r, 2 * c.r, 2 * c.r};
+    for (int y = 0; y < 8; ++y) made.forecast.spread.own(0, y) = {};
+    made.forecast.spread.nodes = {{20, 1e-4, 4e-4}};
+}
+
+TEST(ContactSheet, HasARowOfUncertaintyOnlyWhereItIsStated) {
+    MadeDelivery made(64, 40);
+    const Image<SrgbU8> without = draw_contact_sheet(made.delivery);
+    make_unsure(made);
     const Image<SrgbU8> sheet = draw_contact_sheet(made.delivery);
-    const SheetLayout s = lay_out({{64, 40}, 2, 2, 6});
+    const SheetTiles tiles = make_sheet_tiles(made.delivery);
+    const SheetLayout s = lay_out({{64, 40}, 2, 2, 6, true});
+    ASSERT_EQ(s.uncertainty.size(), 2u);
+    EXPECT_GE(sheet.height() - without.height(), s.tile.height);
+    EXPECT_EQ(tiles.uncertainty_full_codes, uncertainty_full_codes(made.delivery));
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Rect& at = s.uncertainty[i];
+        const Image<SrgbU8>& picture = tiles.forecast[i].uncertainty;
+        ASSERT_TRUE(picture.same_size(at.width, at.height));
+        for (int y = 0; y < at.height; ++y) {
+            ASSERT_TRUE(
+                std::equal(picture.row(y), picture.row(y) + at.width, sheet.row(at.y + y) + at.x));
+        }
+        EXPECT_EQ(picture(0, 0), kHeldGray);
+        EXPECT_NE(picture(60, 40), kHeldGray);
+    }
+    // It grows, under one scale: the later one is lighter.
+    EXPECT_GT(tiles.forecast[1].uncertainty(60, 40).r, tiles.forecast[0].uncertainty(60, 40).r);
+    EXPECT_NEAR(tiles.forecast[1].pixel_80, kHalfWidth80 * std::sqrt(5e-4), 1e-9);
+    expect_margins(sheet, 40);
+}
+
+TEST(ContactSheet, HasTextInEveryLabelPlace) {
+    MadeDelivery made(64, 40);
+    make_unsure(made);
+    const Image<SrgbU8> sheet = draw_contact_sheet(made.delivery);
+    const SheetLayout s = lay_out({{64, 40}, 2, 2, 6, true});
     const auto inked = [&](Rect r) {
         int count = 0;
         for (int y = r.y; y < r.y + r.height; ++y) {
@@ -98,11 +135,17 @@ TEST(ContactSheet, HasTextInEveryLabelPlace) {
     EXPECT_GT(inked({s.margin, s.title_y - 28, 300, 30}), 500);
     EXPECT_GT(inked({s.margin, s.facts_y - 14, 600, 16}), 500);
     EXPECT_GT(inked({s.margin, s.axis_y - 12, 600, 14}), 500);
-    for (const auto* row : {&s.observed, &s.forecast, &s.change, &s.maps}) {
+    for (const auto* row : {&s.observed, &s.forecast, &s.change, &s.uncertainty, &s.maps}) {
         for (const Rect& tile : *row) {
             EXPECT_GT(inked({tile.x, tile.y + tile.height + 10, s.column_width, 18}), 40);
         }
     }
+    for (const Rect& legend : {s.legend, s.uncertainty_legend}) {
+        EXPECT_GT(inked({legend.x, legend.y, 320, 16}), 4000);               // the bar
+        EXPECT_GT(inked({legend.x, legend.y + 26, 320, 14}), 40);            // its ends
+        EXPECT_GT(inked({legend.x, legend.y + 60, legend.width, 60}), 400);  // the note
+    }
+    EXPECT_GT(inked({s.margin, s.uncertainty_heading_y - 12, 240, 13}), 300);
     EXPECT_GT(inked({s.notes.x, s.notes.y - 12, 300, 14}), 200);
 }
 

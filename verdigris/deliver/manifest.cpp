@@ -3,6 +3,7 @@
 
 #include "verdigris/deliver/json_text.h"
 #include "verdigris/deliver/status_json.h"
+#include "verdigris/deliver/uncertainty_map.h"
 #include "verdigris/error.h"
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/sha256.h"
@@ -50,6 +51,10 @@ void write_manifest(const Delivery& delivery, const std::vector<fs::path>& files
     rest["unit"] = kUnitSentence;
     rest["horizons"] = delivery.horizons;
     rest["uncertainty"] = uncertainty_json(delivery);
+    // What the maps of sheet and viewer are drawn to; without a map there is nothing to say.
+    if (const double full = uncertainty_full_codes(delivery); full > 0) {
+        rest["uncertainty_full_codes"] = full;
+    }
     rest["guards"] = guards_json(delivery.guards);
     rest["origins"] = origins_json(*delivery.forecast, *delivery.recipe);
     rest["noise"] = {{"tau", delivery.recipe->tau}};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "verdigris/deliver/testing.h"
+#include "verdigris/deliver/uncertainty_map.h"
 
 namespace verdigris {
 namespace {
@@ -47,6 +48,18 @@ TEST(Manifest, SaysEverythingInAStableOrder) {
     write_manifest(made.delivery, {"a.txt", folder / "sub" / "empty.bin"}, folder / "again.json");
     EXPECT_EQ(read_text(folder / "again.json"), text);
     EXPECT_EQ(text.find(folder.path().string()), std::string::npos);
+}
+
+TEST(Manifest, SaysWhatTheMapOfUncertaintyIsDrawnTo) {
+    const ScratchFolder folder;
+    MadeDelivery made;
+    made.forecast.spread.own = made.forecast.trajectory.base.clone();
+    made.forecast.spread.nodes = {{20, 1e-4, 4e-4}};
+    write_manifest(made.delivery, {}, folder / "manifest.json");
+    const Json manifest = Json::parse(read_text(folder / "manifest.json"));
+    EXPECT_EQ(manifest["uncertainty"].size(), 2u);
+    EXPECT_EQ(manifest["uncertainty_full_codes"], uncertainty_full_codes(made.delivery));
+    EXPECT_GE(manifest["uncertainty_full_codes"], 1);
 }
 
 TEST(Manifest, TauStandsInForAnUnknownNoise) {

@@ -83,14 +83,20 @@ SheetLayout lay_out(const SheetContent& content) {
     if (const int width = kMargin + seen_width - chart_x; width >= kMinChart) {
         s.chart = {chart_x, change_y, width, std::max(s.tile.height, kChartHeight)};
     }
-    const int change_bottom =
-        change_y + std::max({s.tile.height + kLabels, kLegendHeight, s.chart.height});
+    int bottom = change_y + std::max({s.tile.height + kLabels, kLegendHeight, s.chart.height});
+    if (content.uncertainty && content.forecast > 0) {
+        s.uncertainty_heading_y = bottom + kRowGap;
+        const int y = s.uncertainty_heading_y + kHeadingToTile;
+        s.uncertainty = tiles(content.forecast, forecast_x, y, column, s.tile);
+        s.uncertainty_legend = {kMargin, y, s.legend.width, kLegendHeight};
+        bottom = y + std::max(s.tile.height + kLabels, kLegendHeight);
+    }
 
     s.divider_x = kMargin + seen_width + kDividerGap / 2;
     s.divider_top = s.frames_heading_y - 16;
-    s.divider_bottom = change_bottom;
+    s.divider_bottom = bottom;
 
-    s.maps_heading_y = change_bottom + kRowGap;
+    s.maps_heading_y = bottom + kRowGap;
     const int maps_y = s.maps_heading_y + kHeadingToTile;
     s.maps = tiles(content.maps, kMargin, maps_y, column, s.tile);
     s.maps_bottom = maps_y + s.tile.height + kLabels;

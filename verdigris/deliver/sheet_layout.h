@@ -17,6 +17,7 @@ inline constexpr int kTileSide = 256;
 struct SheetContent {
     PictureSize picture;  ///< size of one frame
     int observed = 0, forecast = 0, maps = 0;
+    bool uncertainty = false;  ///< a row of maps of it, one per forecast frame
 };
 
 /// All in pixels of the sheet. Text lines are given by their baselines.
@@ -25,16 +26,18 @@ struct SheetLayout {
     int width = 0;  ///< of the sheet
     int margin = 0;
     int title_y = 0, facts_y = 0, axis_y = 0, rule_y = 0;
-    int frames_heading_y = 0, change_heading_y = 0, maps_heading_y = 0;
+    int frames_heading_y = 0, change_heading_y = 0, uncertainty_heading_y = 0, maps_heading_y = 0;
     std::vector<Rect> observed, forecast;  ///< tiles of row 1
     std::vector<Rect> change;              ///< row 2, each under its forecast frame
-    std::vector<Rect> maps;                ///< row 3
+    std::vector<Rect> uncertainty;         ///< row 3, likewise; empty if there is none
+    std::vector<Rect> maps;                ///< the last row
     int column_width = 0;                  ///< for labels: at least as wide as a tile
     int divider_x = 0, divider_top = 0, divider_bottom = 0;
-    Rect legend;          ///< of the change maps, left of them
-    Rect chart;           ///< right of the legend; empty if there is no room
-    Rect notes;           ///< height 0: as long as the text needs
-    int maps_bottom = 0;  ///< below the labels of row 3
+    Rect legend;              ///< of the change maps, left of them
+    Rect chart;               ///< right of the legend; empty if there is no room
+    Rect uncertainty_legend;  ///< empty without the row
+    Rect notes;               ///< height 0: as long as the text needs
+    int maps_bottom = 0;      ///< below the labels of the maps
 };
 
 /// The tile of a picture: its long side is kTileSide.

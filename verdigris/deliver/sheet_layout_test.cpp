@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace verdigris {
 namespace {
 
@@ -16,22 +18,32 @@ Rect with_labels(Rect tile, const SheetLayout& s) {
     return {tile.x, tile.y, s.column_width, tile.height + 56};
 }
 
+// How many forecast frames, and whether a row says how far off they may be.
+constexpr std::pair<int, bool> kForecasts[] = {{0, false}, {0, true}, {1, false}, {1, true},
+                                               {3, false}, {3, true}, {6, false}, {6, true}};
+
 TEST(SheetLayout, NothingOverlapsAndAllIsOnTheSheet) {
     for (PictureSize picture : {PictureSize{256, 256}, {640, 20}, {1, 100}, {4000, 3000}, {3, 2}}) {
         for (int observed : {1, 2, 5}) {
-            for (int forecast : {0, 1, 3, 6}) {
-                const SheetLayout s = lay_out({picture, observed, forecast, 6});
+            for (const auto& [forecast, uncertainty] : kForecasts) {
+                const SheetLayout s = lay_out({picture, observed, forecast, 6, uncertainty});
                 std::vector<Rect> blocks{s.legend};
                 if (s.chart.width > 0) blocks.push_back(s.chart);
-                for (const auto* row : {&s.observed, &s.forecast, &s.change, &s.maps}) {
+                if (uncertainty && forecast > 0) blocks.push_back(s.uncertainty_legend);
+                for (const auto* row :
+                     {&s.observed, &s.forecast, &s.change, &s.uncertainty, &s.maps}) {
                     for (const Rect& tile : *row) blocks.push_back(with_labels(tile, s));
                 }
                 // Headings are text above a row, as wide as the sheet.
-                blocks.push_back({0, s.change_heading_y - 14, 1, 18});
+                blocks.push_back({0, s.change_heading_y - 14, s.width, 18});
+                if (!s.uncertainty.empty()) {
+                    blocks.push_back({0, s.uncertainty_heading_y - 14, s.width, 18});
+                }
+                const std::size_t headings = s.uncertainty.empty() ? 1 : 2;
                 for (std::size_t i = 0; i < blocks.size(); ++i) {
                     EXPECT_GE(blocks[i].x, 0);
                     EXPECT_LE(blocks[i].x + blocks[i].width,
-                              s.width - (i + 1 < blocks.size() ? s.margin : 0));
+                              s.width - (i + headings < blocks.size() ? s.margin : 0));
                     for (std::size_t k = i + 1; k < blocks.size(); ++k) {
                         EXPECT_FALSE(overlap(blocks[i], blocks[k]))
                             << i << " and " << k << ", " << picture.width << "x" << picture.height;
@@ -43,6 +55,13 @@ TEST(SheetLayout, NothingOverlapsAndAllIsOnTheSheet) {
                 for (std::size_t i = 0; i < s.change.size(); ++i) {
                     EXPECT_EQ(s.change[i].x, s.forecast[i].x);
                 }
+                ASSERT_EQ(s.uncertainty.size(), uncertainty ? s.forecast.size() : 0u);
+                for (std::size_t i = 0; i < s.uncertainty.size(); ++i) {
+                    EXPECT_EQ(s.uncertainty[i].x, s.forecast[i].x);
+                    EXPECT_GT(s.uncertainty[i].y, s.change[i].y);
+                    EXPECT_LT(s.uncertainty[i].y + s.tile.height, s.divider_bottom);
+                }
+                EXPECT_LT(s.divider_bottom, s.maps_heading_y - 14);
             }
         }
     }

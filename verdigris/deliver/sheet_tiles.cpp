@@ -8,6 +8,8 @@
 
 #include "verdigris/color/convert.h"
 #include "verdigris/color/magma.h"
+#include "verdigris/deliver/uncertainty.h"
+#include "verdigris/deliver/uncertainty_map.h"
 
 namespace verdigris {
 namespace {
@@ -87,6 +89,26 @@ void add_forecast(const Delivery& delivery, const Image<SrgbF>& base, SheetTiles
     }
 }
 
+// After add_forecast(): of the same horizons.
+void add_uncertainty(const Delivery& delivery, SheetTiles& tiles) {
+    const Spread& spread = delivery.forecast->spread;
+    const std::vector<Uncertainty> told = uncertainty_of(delivery);
+    if (told.empty()) return;
+    const std::vector<int> shown = evenly_chosen(int(told.size()), kMaxForecast);
+    const Image<float> share = own_share(spread, tile_extent(tiles.picture));
+    tiles.uncertainty_full_codes = uncertainty_full_codes(delivery);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const Uncertainty& u = told[std::size_t(shown[i])];
+        ForecastTile& tile = tiles.forecast[i];
+        tile.uncertainty = uncertainty_picture(half_width_map(spread, share, u.horizon), share,
+                                               tiles.uncertainty_full_codes / 255);
+        tile.pixel_80 = u.pixel80;
+    }
+    tiles.uncertainty_note =
+        "Nominal half width for a pixel, root mean square of R, G and B, in codes of 255 (encoded "
+        "sRGB). The number is that of all pixels. Gray: held, no interval.";
+}
+
 void add_maps(const Delivery& delivery, SheetTiles& tiles) {
     const double horizon = trusted_horizon(delivery);
     Material material;
@@ -115,6 +137,7 @@ SheetTiles make_sheet_tiles(const Delivery& delivery, const Progress& progress) 
     tiles.picture = {base.width(), base.height()};
     add_observed(delivery, base, tiles);
     add_forecast(delivery, base, tiles, progress);
+    add_uncertainty(delivery, tiles);
     add_maps(delivery, tiles);
     return tiles;
 }

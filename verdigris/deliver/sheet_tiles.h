@@ -19,7 +19,9 @@ struct ObservedTile {
 struct ForecastTile {
     std::string label;
     Image<SrgbU8> picture, change;
+    Image<SrgbU8> uncertainty;  ///< empty where none is stated
     double mean_change = 0;     ///< over the specimen; 1 is full scale
+    double pixel_80 = 0;        ///< half width, root mean square of the pixels; 1 is full scale
     bool beyond_trust = false;  ///< further than twice the context
 };
 struct MapTile {
@@ -34,7 +36,8 @@ struct SheetTiles {
     std::vector<ForecastTile> forecast;
     std::vector<MapTile> maps;
     double change_scale = 1;
-    std::string change_scale_note, maps_heading;
+    double uncertainty_full_codes = 0;  ///< 0: none is stated
+    std::string change_scale_note, uncertainty_note, maps_heading;
 };
 
 /// At most 5 observed frames and 6 horizons, evenly chosen; the maps of trusted_horizon().

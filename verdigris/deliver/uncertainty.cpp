@@ -15,6 +15,11 @@ std::string codes(double value) {
 
 }  // namespace
 
+std::string codes_text(double value) {
+    const double c = 255 * value;
+    return c < 9.95 ? fmt::format("{:.1f}", c) : fmt::format("{:.0f}", c);
+}
+
 std::vector<Uncertainty> uncertainty_of(const Delivery& delivery) {
     std::vector<Uncertainty> list;
     const Spread& spread = delivery.forecast->spread;

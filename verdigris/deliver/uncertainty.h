@@ -19,6 +19,9 @@ struct Uncertainty {
 /// Of each delivered horizon; empty where the forecaster states no interval.
 std::vector<Uncertainty> uncertainty_of(const Delivery& delivery);
 
+/// An encoded value as codes of 255: "4.2", from ten on "13".
+std::string codes_text(double value);
+
 /// "Four times in five, ...": of the first and the last horizon; empty if nothing is stated.
 std::string uncertainty_sentence(const std::vector<Uncertainty>& list);
 

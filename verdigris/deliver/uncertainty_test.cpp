@@ -18,6 +18,8 @@ TEST(Uncertainty, IsTheSpreadAtTheDeliveredHorizons) {
     made.forecast.spread.nodes = {{5, variance(3), variance(4)}, {20, variance(6), variance(8)}};
     const auto list = uncertainty_of(made.delivery);
     ASSERT_EQ(list.size(), 2u);
+    EXPECT_EQ(codes_text(list[0].pixel80), "6.4");
+    EXPECT_EQ(codes_text(list[1].pixel80), "13");
     EXPECT_NEAR(255 * list[0].mean80, 3 * kHalfWidth80, 1e-9);
     EXPECT_NEAR(255 * list[0].pixel95, 5 * kHalfWidth95, 1e-9);
     EXPECT_NEAR(255 * list[1].pixel80, 10 * kHalfWidth80, 1e-9);

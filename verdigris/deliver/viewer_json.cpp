@@ -3,6 +3,7 @@
 #include "verdigris/deliver/viewer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,6 +16,7 @@
 #include "verdigris/deliver/json_text.h"
 #include "verdigris/deliver/source_type.h"
 #include "verdigris/deliver/status_json.h"
+#include "verdigris/deliver/uncertainty_map.h"
 #include "verdigris/deliver/viewer_recipe.h"
 #include "verdigris/files/base64.h"
 #include "verdigris/pixels/parallel_rows.h"
@@ -100,6 +102,37 @@ Json law_json(const Trajectory& trajectory, PictureSize extent, Slots& slots,
             {"rate", nullptr}, {"curvature", nullptr}};
 }
 
+// The roots of the pixels' shares. A half width is off by at most sqrt(own(h)) / 2 steps, so steps
+// are as wide as a hundredth of a code allows: finer ones would only be noise, which no zlib packs.
+// A pixel that moves never becomes 0, which says that it is held.
+Json share_blob(const Spread& spread, PictureSize extent) {
+    constexpr double kWorst = 0.01 / 255;  // chosen: nobody sees it, and a legend cannot tell it
+    Image<float> roots = own_share(spread, extent);
+    double own = 0, largest = 0;
+    for (const SpreadNode& n : spread.nodes) own = std::max(own, n.own);
+    for (float& v : roots.pixels()) {
+        v = std::sqrt(v);
+        largest = std::max(largest, double(v));
+    }
+    const double allowed = own > 0 ? 2 * kWorst / (kHalfWidth80 * std::sqrt(own)) : 1;
+    const double step = std::max(allowed, largest / 65535);
+    for (float& v : roots.pixels()) {
+        if (v > 0) v = std::max(v, float(step));
+    }
+    return blob_json(encode_blob(roots.view(), {step, 0}));
+}
+
+Json spread_json(const Delivery& delivery) {
+    const Spread& spread = delivery.forecast->spread;
+    if (!spread.known()) return nullptr;
+    Json nodes = Json::array();
+    for (const SpreadNode& n : spread.nodes) nodes.push_back({n.horizon, n.common, n.own});
+    return {{"common", {spread.common.r, spread.common.g, spread.common.b}},
+            {"nodes", nodes},
+            {"full_codes", uncertainty_full_codes(delivery)},
+            {"own", nullptr}};
+}
+
 Json scalars_json(const MaterialOptions& o, const MaterialRecipe& recipe) {
     return {{"coverage_exponent", o.coverage_exponent},
             {"roughness_clean", o.roughness_clean},
@@ -131,6 +164,7 @@ Json people_json(const Delivery& delivery, PictureSize extent) {
             {"units_observed", delivery.units_observed},
             {"horizons", delivery.horizons},
             {"uncertainty", uncertainty_json(delivery)},
+            {"spread", spread_json(delivery)},
             {"forecaster",
              {{"name", delivery.forecast->forecaster},
               {"explanation", delivery.forecast->explanation}}},
@@ -189,11 +223,16 @@ std::string viewer_json(const Delivery& delivery, const Progress& progress) {
     Json* active = slots.add([&] { return blob_json(encode_blob(small.active.view())); });
     Json* fill =
         slots.add([&] { return blob_json(encode_blob(small.luma_fill.view(), kFillSteps)); });
+    Json* share = nullptr;
+    if (forecast.spread.known()) {
+        share = slots.add([&] { return share_blob(forecast.spread, extent); });
+    }
     slots.run(progress);
 
     for (auto& [key, slot] : law) document["trajectory"][key] = std::move(*slot);
     if (stack_base) document["trajectory"]["base"] = std::move(*stack_base);
     for (Json* frame : frames) document["trajectory"]["frames"].push_back(std::move(*frame));
+    if (share) document["spread"]["own"] = std::move(*share);
     document["observed"] = Json::array();
     for (Json* picture : pictures) document["observed"].push_back(std::move(*picture));
     document["material"] = scalars_json(small.options, recipe);

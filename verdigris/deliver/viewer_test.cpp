@@ -73,7 +73,8 @@ TEST(ViewerJson, HasEveryFieldOfTheFormat) {
     EXPECT_EQ(document["material"]["normal_scale"], made.recipe.options.normal_scale);
     EXPECT_EQ(document["material"]["tau"], made.recipe.tau);
     EXPECT_TRUE(document["uncertainty"].is_null());
-    EXPECT_EQ(document.size(), 19u);
+    EXPECT_TRUE(document["spread"].is_null());
+    EXPECT_EQ(document.size(), 20u);
 }
 
 TEST(ViewerJson, TellsHowFarOffTheHorizonsMayBe) {

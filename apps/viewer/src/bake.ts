@@ -3,11 +3,14 @@
 // Float where the device can draw to it (EXT_color_buffer_float: nearly all), else half, else bytes.
 import * as THREE from "three";
 import { type MaterialConstants } from "./data";
+import { lawAt } from "./law";
 import { type Specimen } from "./specimen";
 import * as shaders from "./shaders";
+import { kHalfWidth80, variances } from "./uncertainty";
+import { unsureMap } from "./uncertainty_shaders";
 
 /** The maps that can be read back or looked at flat. */
-export type MapName = "albedo" | "normal" | "roughness" | "metallic" | "height" | "coverage";
+export type MapName = "albedo" | "normal" | "roughness" | "metallic" | "height" | "coverage" | "uncertainty";
 
 type Uniforms = Record<string, THREE.IUniform>;
 
@@ -32,19 +35,6 @@ function drawable(renderer: THREE.WebGLRenderer):
   return { float: type, map: type };
 }
 
-/** phi and phi2 of a law with nodes: linear from 0 to and between them, held beyond. */
-export function lawAt(nodes: readonly [number, number, number][], age: number): [number, number] {
-  let before: readonly [number, number, number] = [0, 0, 0];
-  for (const node of nodes) {
-    if (age <= node[0]) {
-      const share = (age - before[0]) / (node[0] - before[0]);
-      return [before[1] + share * (node[1] - before[1]), before[2] + share * (node[2] - before[2])];
-    }
-    before = node;
-  }
-  return [before[1], before[2]];
-}
-
 export class Bake {
   /** What a MeshStandardMaterial reads. */
   readonly albedo: THREE.WebGLRenderTarget;
@@ -52,6 +42,8 @@ export class Bake {
   readonly orm: THREE.WebGLRenderTarget;
   /** X and coverage, encoded sRGB, float. */
   readonly frame: THREE.WebGLRenderTarget;
+  /** Where the forecaster says how far off it may be; drawn only when asked for. */
+  readonly unsure: THREE.WebGLRenderTarget | null = null;
   age = Number.NaN;
 
   private readonly float: THREE.TextureDataType;
@@ -69,6 +61,8 @@ export class Bake {
   private readonly albedoPass: THREE.RawShaderMaterial;
   private readonly normalPass: THREE.RawShaderMaterial;
   private readonly ormPass: THREE.RawShaderMaterial;
+  private readonly unsurePass: THREE.RawShaderMaterial | null = null;
+  private unsureAge = Number.NaN;
 
   constructor(private readonly renderer: THREE.WebGLRenderer, private readonly specimen: Specimen) {
     const { width, height } = specimen;
@@ -128,6 +122,13 @@ export class Bake {
       u_rough: { value: new THREE.Vector3(m.roughness_clean, m.roughness_patina, m.roughness_gamma) },
       u_metal: { value: new THREE.Vector3(m.metallic_clean, m.metallic_patina, m.metallic_gamma) },
       u_micro: { value: m.micro_roughness }, u_range: { value: m.micro_range } });
+    const spread = specimen.document.spread;
+    if (spread && specimen.share) {
+      this.unsure = this.map(map, THREE.NoColorSpace);
+      this.unsurePass = pass(unsureMap, { u_share: { value: specimen.share },
+        u_variance: { value: new THREE.Vector2() }, u_half: { value: kHalfWidth80 },
+        u_full: { value: spread.full_codes / 255 } });
+    }
     this.mesh.frustumCulled = false;
     this.scene.add(this.mesh);
   }
@@ -143,19 +144,34 @@ export class Bake {
     this.draw(this.ormPass, this.orm);
   }
 
+  /** Half widths at the age last baked. Apart from bake(): who does not look does not wait. */
+  bakeUncertainty(): void {
+    if (!this.unsure || this.age === this.unsureAge) return;
+    this.unsureAge = this.age;
+    this.draw(this.unsureAt(this.age), this.unsure);
+  }
+
   /** Full-resolution floats of a map at the age last baked, row 0 on top. */
   read(name: MapName): { width: number; height: number; channels: number; data: Float32Array } {
     const { x: width, y: height } = this.size;
-    const first = { albedo: 0, normal: 0, roughness: 1, metallic: 2, height: 3, coverage: 3 }[name];
+    const first = { albedo: 0, normal: 0, roughness: 1, metallic: 2, height: 3, coverage: 3, uncertainty: 0 }[name];
     const channels = name === "albedo" || name === "normal" ? 3 : 1;
     const rgba = name === "albedo" || name === "coverage" ? this.pixels(this.frame)
-      : name === "normal" ? this.redrawn(this.normalPass) : this.redrawn(this.ormPass);
+      : name === "normal" ? this.redrawn(this.normalPass)
+      : name === "uncertainty" ? this.redrawn(this.unsureAt(this.age)) : this.redrawn(this.ormPass);
     const unpack = name === "normal" ? (v: number) => v * 2 - 1 : (v: number) => v;
     const out = new Float32Array(width * height * channels);
     for (let i = 0; i < width * height; i++) {
       for (let k = 0; k < channels; k++) out[i * channels + k] = unpack(rgba[i * 4 + first + k]!);
     }
     return { width, height, channels, data: out };
+  }
+
+  private unsureAt(age: number): THREE.RawShaderMaterial {
+    const spread = this.specimen.document.spread;
+    if (!spread || !this.unsurePass) throw new Error("This forecast does not say how far off it may be.");
+    (this.unsurePass.uniforms.u_variance!.value as THREE.Vector2).fromArray(variances(spread, age));
+    return this.unsurePass;
   }
 
   /** A map once more in the type of the data: the textures are made for looking at. */

@@ -26,12 +26,25 @@ export interface ViewerDocument {
   context: number; units_observed: number; horizons: number[];
   /** Half widths of nominal intervals, encoded sRGB in 0..1; null or absent: none is stated. */
   uncertainty?: { horizon: number; mean_80: number; mean_95: number; pixel_80: number; pixel_95: number }[] | null;
+  /** Null or absent: none is stated. */
+  spread?: SpreadDocument | null;
   forecaster: { name: string; explanation: string };
   guards: Guard[]; origins: MapOrigin[];
   trajectory: LawDocument | FramesDocument;
   observed: { unit: number; image: string }[];
   material: MaterialConstants;
   canvas: Blob16; dead_zone: Blob16; active: Blob16; luma_fill: Blob16;
+}
+
+/** How far off the forecast may be, per pixel (docs/VIEWER_DATA.md). */
+export interface SpreadDocument {
+  common: [number, number, number];
+  /** [horizon, variance that all pixels share, variance of each], linear from 0 to and between them. */
+  nodes: [number, number, number][];
+  /** Where the colors of the map end. */
+  full_codes: number;
+  /** Root of the pixels' shares of the latter; 0: held. */
+  own: Blob16;
 }
 
 /** An error whose message is a sentence for the person at the screen. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { type AgeSlider } from "./age_slider";
-import { kMaps, type MapView } from "./flat";
+import { type MapView } from "./flat";
 import { type FlatGestures } from "./flat_gestures";
 import { type Stage } from "./scene";
 import { type Shape } from "./shapes";
@@ -8,6 +8,9 @@ import { type Wipe } from "./wipe";
 
 export interface Actions {
   slider: AgeSlider; wipe: Wipe; stage: Stage; gestures: FlatGestures;
+  /** In the order of their keys, from 1. */
+  maps: readonly MapView[];
+  toggleOverlay(): void;
   turnLight(degrees: number): void;
   pickMap(view: MapView): void;
   pickShape(shape: Shape): void;
@@ -51,7 +54,8 @@ export function listen(actions: Actions): void {
     else if (key === "s") actions.pickShape("sphere");
     else if (key === "p") actions.pickShape("plane");
     else if (key === "c") actions.pickShape("curved");
-    else if (key >= "1" && key <= "7" && key.length === 1) actions.pickMap(kMaps[Number(key) - 1]!);
+    else if (key === "u") actions.toggleOverlay();
+    else if (/^[1-9]$/.test(key) && actions.maps[Number(key) - 1]) actions.pickMap(actions.maps[Number(key) - 1]!);
     else return;
     e.preventDefault();
   });

@@ -5,13 +5,15 @@ import { AgeSlider, ageText, ageTone, shortAge } from "./age_slider";
 import { Bake, type MapName } from "./bake";
 import { ButtonRow } from "./buttons";
 import { PageFault, readDocument, type ViewerDocument } from "./data";
-import { FlatView, kMaps, mapNote, type MapView } from "./flat";
+import { FlatView, mapsOf, type MapView } from "./flat";
 import { FlatGestures } from "./flat_gestures";
 import { listen } from "./keyboard";
+import { Legend } from "./legend";
 import { fillHelp, fillPanel } from "./panel";
 import { Stage } from "./scene";
 import { type Shape, kShapes } from "./shapes";
 import { Specimen } from "./specimen";
+import { makeOverlay } from "./uncertainty";
 import { Wipe } from "./wipe";
 
 interface TestApi {
@@ -51,7 +53,7 @@ async function start(api: TestApi): Promise<void> {
   element("subtitle").textContent =
     `observed for ${doc.units_observed.toFixed(0)} units, forecast to +${doc.horizons.at(-1) ?? 0}`;
   fillPanel(doc);
-  fillHelp();
+  fillHelp(doc);
   const renderer = makeRenderer();
   const specimen = await Specimen.load(doc, renderer.capabilities.maxTextureSize);
   const aspect = doc.width / doc.height;
@@ -62,12 +64,17 @@ async function start(api: TestApi): Promise<void> {
   let view: MapView = "lit", pending = 0;
   const stageBox = element("stage");
   const redraw = () => { if (!pending) pending = requestAnimationFrame(draw); };
-  const stage = new Stage(renderer, aspect, redraw);
-  const flat = new FlatView(renderer, aspect, doc.width);
+  const overlay = makeOverlay(), legend = new Legend(doc);
+  const over = () => overlay.u_over.value > 0;
+  const stage = new Stage(renderer, aspect, overlay, redraw);
+  const flat = new FlatView(renderer, aspect, doc.width, overlay);
   const gestures = new FlatGestures(renderer.domElement, flat, redraw);
   const wipe = new Wipe(stageBox, redraw);
-  const one = (bake: Bake, width: number, height: number) =>
-    view === "lit" ? stage.draw(bake) : flat.draw(bake, view, width, height);
+  const one = (bake: Bake, width: number, height: number) => {
+    if (over() || view === "uncertainty") bake.bakeUncertainty();
+    if (view === "lit") stage.draw(bake, legend.below);
+    else flat.draw(bake, view, width, height, legend.below);
+  };
 
   function draw(): void {
     pending = 0;
@@ -97,23 +104,20 @@ async function start(api: TestApi): Promise<void> {
     badge.textContent = age < 0.05 ? "observed" : held ? "forecast, held" : "forecast";
     badge.className = tone;
     wipe.label(shortAge(age, held), tone);
+    legend.show(view, over(), age);
     say(() => ageText(age, held), 600);
     redraw();
   });
 
-  const maps = new ButtonRow("maps", kMaps, (_, i) => String(i + 1), pickMap);
+  const known = mapsOf(doc);
+  const maps = new ButtonRow("maps", known, (_, i) => String(i + 1), pickMap);
   const shapes = new ButtonRow<Shape>("shapes", kShapes, (n) => n[0]!.toUpperCase(), pickShape);
   function pickMap(name: MapView): void {
     view = name;
     maps.press(name);
     stage.controls.enabled = name === "lit";
     gestures.on = name !== "lit";
-    const { note, scale } = mapNote(name, doc.material.observed_is_clean);
-    element("legend").hidden = name === "lit";
-    element("legend").classList.toggle("scaled", scale !== undefined);
-    element("legend").dataset.map = name;
-    element("legend-low").textContent = scale ? scale[0] : note;
-    element("legend-high").textContent = scale?.[1] ?? "";
+    legend.show(view, over(), slider.age);
     say(() => `${name} map`, 300);
     redraw();
   }
@@ -122,6 +126,19 @@ async function start(api: TestApi): Promise<void> {
     shapes.press(name);
     pickMap("lit");
   }
+  const overButton = element("over-toggle");
+  overButton.hidden = !doc.spread;
+  function toggleOverlay(): void {
+    if (!doc.spread) return;
+    overlay.u_over.value = over() ? 0 : 1;
+    overButton.setAttribute("aria-pressed", String(over()));
+    // It is painted over the material and its albedo; on any other map the key would do nothing.
+    if (over() && view !== "albedo") pickMap("lit");
+    legend.show(view, over(), slider.age);
+    say(() => (over() ? "uncertainty over the material" : "material without the uncertainty"), 300);
+    redraw();
+  }
+  overButton.addEventListener("click", toggleOverlay);
   const light = element<HTMLInputElement>("light");
   const turnLight = (to: number) => {
     light.value = String(to);
@@ -137,7 +154,7 @@ async function start(api: TestApi): Promise<void> {
   };
   panelButton.addEventListener("click", () => showPanel(document.body.classList.contains("panel-closed")));
   showPanel(window.innerWidth > 900);
-  listen({ slider, wipe, stage, gestures, pickMap, pickShape,
+  listen({ slider, wipe, stage, gestures, maps: known, pickMap, pickShape, toggleOverlay,
     turnLight: (degrees) => turnLight(((Number(light.value) + degrees + 540) % 360) - 180) });
 
   new ResizeObserver(() => {

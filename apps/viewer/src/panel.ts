@@ -2,6 +2,7 @@
 // The words: which forecaster and why, the guards, what a unit is, how each map is known.
 import { ageScale } from "./age_scale";
 import { type ViewerDocument } from "./data";
+import { mapsOf } from "./flat";
 
 // Text goes in through textContent only: a hostile file name stays text.
 function add(parent: HTMLElement, tag: string, text = "", className = ""): HTMLElement {
@@ -29,6 +30,10 @@ export function fillPanel(doc: ViewerDocument): void {
     for (const u of doc.uncertainty) {
       add(rows, "dt", `+${u.horizon}`);
       add(rows, "dd", `mean color ${codes(u.mean_80)} (${codes(u.mean_95)}), a pixel ${codes(u.pixel_80)} (${codes(u.pixel_95)})`);
+    }
+    if (doc.spread) {
+      add(panel, "p", "Where it is more and where less: the map \u201cUncertainty\u201d (key 8), or laid over the " +
+        "material (key U).", "quiet");
     }
   }
 
@@ -63,17 +68,19 @@ export function fillPanel(doc: ViewerDocument): void {
   add(panel, "p", `Verdigris ${doc.version}`, "quiet");
 }
 
-export function fillHelp(): void {
+export function fillHelp(doc: ViewerDocument): void {
   const dialog = document.getElementById("help") as HTMLDialogElement;
   add(dialog, "h2", "Keyboard");
-  const list = add(dialog, "dl");
-  for (const [keys, what] of [
+  const list = add(dialog, "dl"), maps = mapsOf(doc);
+  const rows: [string, string][] = [
     ["\u2190 \u2192", "younger, older (with Shift: by 5 units)"], ["Home End", "first observed, last forecast"],
-    ["Space", "play, pause"], ["1 \u2026 7", "lit, albedo, normal, roughness, metallic, height, coverage"],
+    ["Space", "play, pause"], [`1 \u2026 ${maps.length}`, maps.join(", ")],
     ["S P C", "sphere, plane, curved sheet"], ["W", "wipe against the last observed frame"],
+    ...(doc.spread ? [["U", "the uncertainty over the material"] as [string, string]] : []),
     ["[ ]", "turn the light"], ["Arrows on the picture", "turn the shape, or move a flat map"],
     ["+ \u2212 0 on a flat map", "nearer, farther, all of it"], ["H", "this list"], ["Esc", "close"],
-  ]) {
+  ];
+  for (const [keys, what] of rows) {
     add(list, "dt", keys);
     add(list, "dd", what);
   }

@@ -5,6 +5,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { type Bake } from "./bake";
 import { type Shape, makeShape } from "./shapes";
 import { Studio } from "./studio";
+import { type Overlay, paintOver } from "./uncertainty";
 
 export class Stage {
   readonly controls: OrbitControls;
@@ -13,10 +14,12 @@ export class Stage {
   private readonly scene = new THREE.Scene();
   private readonly mesh = new THREE.Mesh();
   private readonly geometries = new Map<Shape, THREE.BufferGeometry>();
+  private readonly size = new THREE.Vector2(1, 1);
+  private below = 0;
   private readonly materials = new Map<Bake, THREE.MeshStandardMaterial>();
 
   constructor(private readonly renderer: THREE.WebGLRenderer, private readonly aspect: number,
-              onChange: () => void) {
+              private readonly overlay: Overlay, onChange: () => void) {
     renderer.toneMapping = THREE.NeutralToneMapping;
     renderer.toneMappingExposure = 1.0;
     this.studio = new Studio(renderer, this.scene);
@@ -51,13 +54,26 @@ export class Stage {
   }
 
   resize(width: number, height: number): void {
-    this.camera.aspect = width / height;
-    // On a narrow screen the shape must still fit across.
-    this.camera.fov = this.camera.aspect < 1 ? Math.min(32 / this.camera.aspect, 60) : 32;
-    this.camera.updateProjectionMatrix();
+    this.size.set(width, height);
+    this.fit(this.below);
   }
 
-  draw(bake: Bake): void {
+  /** The shape stands above a legend that takes `below` pixels from the bottom. */
+  private fit(below: number): void {
+    const { x: width, y: height } = this.size, free = Math.max(height - below, height / 2);
+    this.below = below;
+    this.camera.aspect = width / height;
+    // On a narrow screen the shape must still fit across.
+    const fov = this.camera.aspect < 1 ? Math.min(32 / this.camera.aspect, 60) : 32;
+    const half = Math.tan(THREE.MathUtils.degToRad(fov / 2));
+    // Where there is room beside it, what the legend takes from the height is taken from the size.
+    const smaller = Math.max(Math.min(height, width) / Math.min(free, width), 1);
+    this.camera.fov = THREE.MathUtils.radToDeg(2 * Math.atan(half * smaller));
+    this.camera.setViewOffset(width, height, 0, (height - free) / 2, width, height);
+  }
+
+  draw(bake: Bake, below: number): void {
+    if (below !== this.below) this.fit(below);
     this.studio.setUp();
     this.mesh.material = this.materialOf(bake);
     this.renderer.render(this.scene, this.camera);
@@ -73,6 +89,7 @@ export class Stage {
         // The normal map is +Y up while v points down, as in glTF.
         normalScale: new THREE.Vector2(1, -1),
       });
+      if (bake.unsure) paintOver(material, this.overlay, bake.unsure.texture);
       this.materials.set(bake, material);
     }
     return material;

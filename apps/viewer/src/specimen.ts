@@ -15,6 +15,7 @@ export class Specimen {
   curvature!: THREE.Texture;
   canvas!: THREE.Texture;     // C and luma_fill
   zone!: THREE.Texture;       // dead_zone, active
+  share: THREE.Texture | null = null;   // root of Spread::own, mean of its channels
   private observed: { unit: number; texture: THREE.Texture }[] = [];
   private stack: { unit: number; codes: Codes | null }[] = [];
   // A network's frames go to the GPU when they are looked at: fifty of them at 512 x 512 in float
@@ -35,13 +36,14 @@ export class Specimen {
     const decode = (blob: Blob16) => decodeCodes(blob, document.width, document.height);
     const t = document.trajectory;
     const law = t.kind === "law" ? t : null;
-    const [canvas, fill, zone, active, base, rate, curvature, ...frames] = await Promise.all([
+    const [canvas, fill, zone, active, share, base, rate, curvature, ...frames] = await Promise.all([
       decode(document.canvas), decode(document.luma_fill), decode(document.dead_zone),
-      decode(document.active), decode(t.base), law ? decode(law.rate) : null,
+      decode(document.active), document.spread ? decode(document.spread.own) : null, decode(t.base), law ? decode(law.rate) : null,
       law?.curvature ? decode(law.curvature) : null,
       ...(t.kind === "frames" ? t.frames.map(decode) : [])]);
     self.canvas = self.texture(packRgba(canvas, fill));
     self.zone = self.texture(packRgba(zone, active));
+    if (share) self.share = self.single(share);
     self.base = self.texture(packRgba(base));
     self.rate = rate ? self.texture(packRgba(rate)) : self.base;
     self.curvature = curvature ? self.texture(packRgba(curvature)) : self.rate;
@@ -87,6 +89,12 @@ export class Specimen {
   private texture(rgba: Float32Array): THREE.DataTexture {
     const t = new THREE.DataTexture(rgba, this.width, this.height, THREE.RGBAFormat, THREE.FloatType);
     return asIs(t);
+  }
+
+  /** One float per texel. */
+  private single(of: Codes): THREE.DataTexture {
+    const values = Float32Array.from(of.codes, (code) => of.offset + of.scale * code);
+    return asIs(new THREE.DataTexture(values, this.width, this.height, THREE.RedFormat, THREE.FloatType));
   }
 
   private picture(image: ImageBitmap): THREE.Texture {
