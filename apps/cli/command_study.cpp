@@ -18,19 +18,19 @@ namespace {
 constexpr const char* kTransferFile = "transfer.json";
 
 struct Arguments {
-    std::string output, runs, networks;
+    std::string output, runs, networks, presets;
     std::optional<int> seeds, epochs, size;
     bool quick = false;
 };
 
-std::vector<NetworkKind> kinds_of(const std::string& names) {
-    std::vector<NetworkKind> kinds;
+std::vector<std::string> parts_of(const std::string& names) {
+    std::vector<std::string> parts;
     for (std::size_t start = 0; start <= names.size();) {
         const std::size_t end = std::min(names.find(',', start), names.size());
-        kinds.push_back(network_kind(names.substr(start, end - start)));
+        parts.push_back(names.substr(start, end - start));
         start = end + 1;
     }
-    return kinds;
+    return parts;
 }
 
 void run_transfer(Session& session, const Arguments& a) {
@@ -39,7 +39,12 @@ void run_transfer(Session& session, const Arguments& a) {
     if (a.seeds) options.seeds = *a.seeds;
     if (a.epochs) options.epochs = *a.epochs;
     if (a.size) options.size = *a.size;
-    if (!a.networks.empty()) options.networks = kinds_of(a.networks);
+    if (!a.networks.empty()) {
+        options.networks.clear();
+        for (const std::string& name : parts_of(a.networks))
+            options.networks.push_back(network_kind(name));
+    }
+    if (!a.presets.empty()) options.presets = parts_of(a.presets);
     options.threads = session.threads;
     // Beside the results and not in them: trainings are kept from run to run.
     fs::path folder = fs::path(a.output);
@@ -78,6 +83,7 @@ void add_study(CLI::App& app, Session& session) {
                       "Two seeds, one network, 32 pixels: minutes, no evidence");
     command->add_option("--networks", a->networks,
                         "Names with commas between (patinanet,horizonnet)");
+    command->add_option("--presets", a->presets, "Kinds of specimen, with commas (chamber,air)");
     command->add_option("--seeds", a->seeds, "Source specimens per preset (3)");
     command->add_option("--epochs", a->epochs, "Of each training (6)");
     command->add_option("--size", a->size, "Side of the samples (64)");

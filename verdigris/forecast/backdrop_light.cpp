@@ -33,10 +33,8 @@ float channel(const SrgbF& c, int k) {
     return k == 0 ? c.r : k == 1 ? c.g : c.b;
 }
 
-using Light = std::vector<std::array<double, 3>>;
-
-Light median_light(const Context& context, const std::vector<std::size_t>& pixels) {
-    Light light(context.frames.size(), {1, 1, 1});
+LightGains median_light(const Context& context, const std::vector<std::size_t>& pixels) {
+    LightGains light(context.frames.size(), {1, 1, 1});
     const auto last = context.frames.back().pixels();
     parallel_for(int(context.frames.size()) - 1, [&](int i) {
         const auto frame = context.frames[std::size_t(i)].pixels();
@@ -58,7 +56,7 @@ Light median_light(const Context& context, const std::vector<std::size_t>& pixel
 
 /// One gain for all channels, as light and exposure have it and copper has not: channels differ by
 /// at most a seventh of the largest change. chosen
-bool is_gray(const Light& light) {
+bool is_gray(const LightGains& light) {
     double largest = 0, apart = 0;
     for (const auto& gain : light) {
         const double r = std::log(gain[0]), g = std::log(gain[1]), b = std::log(gain[2]);
@@ -69,7 +67,7 @@ bool is_gray(const Light& light) {
 }
 
 /// Do frames under this light differ by their noise alone, and as they are by more?
-bool explains_all(const Context& context, const Light& light, const Mask& inside) {
+bool explains_all(const Context& context, const LightGains& light, const Mask& inside) {
     const double sigma =
         context.sigma > 0 ? context.sigma : context_noise(context.frames, inside, 1e-3);
     const double noise = 2 * sigma * sigma;
@@ -91,8 +89,8 @@ bool shows_light(const Context& context) {
     return std::int64_t(sample_inside(backdrop(context), kMostPixels).size()) >= kFewestPixels;
 }
 
-std::vector<std::array<double, 3>> backdrop_light(const Context& context) {
-    const Light none(context.frames.size(), {1, 1, 1});
+LightGains backdrop_light(const Context& context) {
+    const LightGains none(context.frames.size(), {1, 1, 1});
     if (!context.specimen.empty() || !context.backdrop.empty()) {
         const auto pixels = sample_inside(backdrop(context), kMostPixels);
         if (std::int64_t(pixels.size()) >= kFewestPixels) return median_light(context, pixels);
@@ -100,7 +98,7 @@ std::vector<std::array<double, 3>> backdrop_light(const Context& context) {
     const Mask all = fit_mask(context, FitPixels::all);
     const auto pixels = sample_inside(all, kMostPixels);
     if (std::int64_t(pixels.size()) < kFewestPixels) return none;
-    Light light = median_light(context, pixels);
+    LightGains light = median_light(context, pixels);
     return is_gray(light) && explains_all(context, light, all) ? light : none;
 }
 

@@ -9,11 +9,14 @@
 
 namespace verdigris {
 
+/// Per frame, and channel: how much brighter the last frame is.
+using LightGains = std::vector<std::array<double, 3>>;
+
 /// Per frame and channel: how much brighter, in linear light, the last frame shows the backdrop
 /// (pixels outside the specimen, not clipped): the median over pixels, which a moving minority does
 /// not shift. Where there is no backdrop of 200 pixels to see: of the whole picture, if one gray
 /// gain per frame is all that happens to it, noise aside; else all 1.
-std::vector<std::array<double, 3>> backdrop_light(const Context& context);
+LightGains backdrop_light(const Context& context);
 
 /// Is there backdrop enough to see the light on?
 bool shows_light(const Context& context);

@@ -21,6 +21,18 @@ using Eigen::MatrixXd;
 // chosen: what a pixel did is told from its neighborhood, so that it is not told from its noise.
 constexpr int kEnergySigma = 2;
 
+constexpr double kLightCount = 1;  // chosen: the channels share nearly all of it
+
+/// Log of the light of each frame over that of the one before, from gains to the last one's.
+Eigen::MatrixX3d log_steps(const LightGains& light) {
+    Eigen::MatrixX3d steps(Eigen::Index(light.size()) - 1, 3);
+    for (Eigen::Index i = 0; i < steps.rows(); ++i)
+        for (int k = 0; k < 3; ++k)
+            steps(i, k) = std::log(light[std::size_t(i)][std::size_t(k)]) -
+                          std::log(light[std::size_t(i) + 1][std::size_t(k)]);
+    return steps;
+}
+
 Component forecast_component(const ChangePart& part, const PartMoments& moments, double count,
                              const TrendModels& models) {
     Component c;
@@ -83,15 +95,27 @@ const TrendModels& TrendModelsCache::of(int increments) {
 }
 
 Components components_of(const Context& context, const Mask& moving, const BandTrendDesign& design,
-                         TrendModelsCache& models) {
-    Increments rest = increments_of(context, moving, design.light);
-    const TrendModels& trends = models.of(int(rest.size()));
+                         TrendModelsCache& models, TrendModelsCache& light_models) {
+    const LightGains light = design.light ? backdrop_light(context) : LightGains{};
+    Increments rest = increments_of(context, moving, light);
+    const int q = int(rest.size());
+    const TrendModels& trends = models.of(q);
     const double area = double(count_inside(moving));
     Components out;
-    if (design.gray && design.light && !shows_light(context)) {
-        const GrayPart part(context, moving, rest);
-        out.all.push_back(forecast_component(part, moments_of(part), design.global_count, trends));
-        out.all.back().common = out.all.back().gray = true;
+    const auto add_light = [&](const LightPart& part, double count, const TrendModels& of_light) {
+        out.all.push_back(forecast_component(part, moments_of(part), count, of_light));
+        out.all.back().common = out.all.back().light = true;
+    };
+    const bool corrected = std::ranges::any_of(light, [](const auto& gain) {
+        return gain != std::array<double, 3>{1, 1, 1};
+    });
+    if (corrected && design.relight) {
+        // It was taken off the increments by relighting them; where it goes is another matter.
+        add_light(LightPart(context, moving, log_steps(light)), kLightCount, light_models.of(q));
+    }
+    if (design.light && design.gray && !shows_light(context)) {
+        const LightPart part(context, moving, rest);
+        add_light(part, design.global_count, trends);
         part.subtract(rest);
     }
     if (design.global) {

@@ -36,7 +36,7 @@ struct Component {
     Eigen::MatrixXd increments;  ///< mean products of its increments
     double count = 0;            ///< independent parts of it
     bool common = false;         ///< all of the specimen shares it
-    bool gray = false;           ///< one gain of all light
+    bool light = false;          ///< it is light, or may be
     int held = 0;                ///< it stays as it is at this one of kTrendUnits
 };
 
@@ -60,6 +60,6 @@ struct Components {
 };
 
 Components components_of(const Context& context, const Mask& moving, const BandTrendDesign& design,
-                         TrendModelsCache& models);
+                         TrendModelsCache& models, TrendModelsCache& light_models);
 
 }  // namespace verdigris

@@ -2,11 +2,9 @@
 #include "verdigris/forecast/band_spread.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "verdigris/forecast/backdrop_light.h"
 #include "verdigris/forecast/context_pixels.h"
 
 namespace verdigris {
@@ -14,31 +12,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double kLightCount = 1;  // chosen: the channels share nearly all of it
-constexpr double kNudge = 0.01;    // of light, to see what a change of it does to a picture
-
-/// Mean square over what moves of the change of encoded values per unit of log light.
-double light_slope(const Image<SrgbF>& frame, const Mask& moving) {
-    const Image<SrgbF> brighter = relit(frame, {1 + kNudge, 1 + kNudge, 1 + kNudge});
-    return mean_square_difference(frame, brighter, moving) /
-           (std::log1p(kNudge) * std::log1p(kNudge));
-}
-
-/// Variance of log light between the last frame and each of kTrendUnits; zero without a backdrop.
-VectorXd light_variance(const Context& context, TrendModelsCache& models) {
-    const auto light = backdrop_light(context);
-    const auto q = Eigen::Index(light.size()) - 1;
-    MatrixXd steps(q, 3);
-    for (Eigen::Index i = 0; i < q; ++i)
-        for (int k = 0; k < 3; ++k)
-            steps(i, k) = std::log(light[std::size_t(i)][std::size_t(k)]) -
-                          std::log(light[std::size_t(i) + 1][std::size_t(k)]);
-    const MatrixXd gram = steps * steps.transpose() / 3;
-    if (!(gram.trace() > 0)) return VectorXd::Zero(Eigen::Index(kTrendUnits.size()));
-    const Trend trend = models.of(int(q)).trend(gram, kLightCount);
-    return trend.change + trend.error;  // the light is held, so that its trend is an error too
-}
 
 /// Mean square of what a component still changes after it is held.
 VectorXd withheld(const Component& c) {
@@ -67,11 +40,9 @@ VectorXd expected_advantage(const std::vector<Component>& components,
     return out;
 }
 
-Spread spread_of(const Context& context, const Mask& moving, const Components& components,
-                 TrendModelsCache& models) {
+Spread spread_of(const Mask& moving, const Components& components) {
     const auto units = Eigen::Index(kTrendUnits.size());
-    VectorXd common = light_slope(context.frames.back(), moving) * light_variance(context, models);
-    VectorXd own = VectorXd::Zero(units);
+    VectorXd common = VectorXd::Zero(units), own = VectorXd::Zero(units);
     for (const Component& c : components.all)
         (c.common ? common : own) += c.trend.error + withheld(c);
     Spread spread;

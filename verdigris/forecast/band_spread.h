@@ -20,9 +20,7 @@ namespace verdigris {
 Eigen::VectorXd expected_advantage(const std::vector<Component>& components,
                                    const std::function<bool(const Component&)>& counts);
 
-/// Of a forecast whose components are held. Includes light that wanders, as the
-/// backdrop shows it: where it will be is not known.
-Spread spread_of(const Context& context, const Mask& moving, const Components& components,
-                 TrendModelsCache& models);
+/// Of a forecast whose components are held where they say.
+Spread spread_of(const Mask& moving, const Components& components);
 
 }  // namespace verdigris

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -37,27 +38,26 @@ Forecast held(const Context& context, std::string why) {
     return f;
 }
 
-enum class Which { all, gray, not_gray };
-
-/// The last of kTrendUnits until which these are confident to beat holding still; the first at
-/// least, because that also takes the last frame's noise back.
-int trusted_until(const std::vector<Component>& components, Which which, double confidence) {
-    const Eigen::VectorXd advantage = expected_advantage(components, [which](const Component& c) {
-        return which == Which::all || c.gray == (which == Which::gray);
-    });
+/// The last of kTrendUnits until which those that count are confident to beat holding still; the
+/// first at least, because that also takes the last frame's noise back.
+int trusted_until(const std::vector<Component>& components, double confidence,
+                  const std::function<bool(const Component&)>& counts) {
+    const Eigen::VectorXd advantage = expected_advantage(components, counts);
     int last = -1;
     while (last + 1 < int(advantage.size()) && advantage[last + 1] >= confidence) ++last;
     return std::max(last, 0);
 }
 
 /// All is followed while all together is sure enough. Light that jitters is never sure, and what it
-/// leaves may well be: the gray part, and all but it, are each followed as long as they are by
-/// themselves.
+/// leaves may well be: light, and all but it, are each followed as long as they are by themselves.
 void hold(std::vector<Component>& components, double confidence) {
-    const int all = trusted_until(components, Which::all, confidence);
-    const int gray = trusted_until(components, Which::gray, confidence);
-    const int others = trusted_until(components, Which::not_gray, confidence);
-    for (Component& c : components) c.held = std::max(all, c.gray ? gray : others);
+    const int all = trusted_until(components, confidence, [](const Component&) { return true; });
+    for (const bool light : {true, false}) {
+        const int own = trusted_until(components, confidence,
+                                      [light](const Component& c) { return c.light == light; });
+        for (Component& c : components)
+            if (c.light == light) c.held = std::max(all, own);
+    }
 }
 
 /// All components as one trajectory of two terms, each held from where it is.
@@ -106,6 +106,12 @@ Context end_of(const Context& context, int begin, int count) {
 struct Method {
     BandTrendDesign design;
     TrendModelsCache models{design.prior};
+    // Light goes nowhere by itself: what is known of it is where it usually is.
+    TrendModelsCache light_models{[this] {
+        TrendPrior prior = design.prior;
+        prior.drift = false;
+        return prior;
+    }()};
 };
 
 Forecast forecast(const Context& context, bool clamp, Method& method) {
@@ -115,7 +121,8 @@ Forecast forecast(const Context& context, bool clamp, Method& method) {
         return held(context, "With 1 frame observed there is no change to carry on: held.");
     if (count_inside(moving) < 16)
         return held(context, "No usable pixel lies on the specimen, so the last state is held.");
-    Components components = components_of(context, moving, method.design, models);
+    Components components =
+        components_of(context, moving, method.design, models, method.light_models);
     if (components.all.empty())
         return held(context, "Nothing changed in the context, so the last state is held.");
     Forecast f;
@@ -123,7 +130,7 @@ Forecast forecast(const Context& context, bool clamp, Method& method) {
     f.context_length = context.length();
     hold(components.all, method.design.confidence);
     f.trajectory = joined(context, components.all, clamp);
-    f.spread = spread_of(context, moving, components, models);
+    f.spread = spread_of(moving, components);
     // What all of the specimen shares tells best.
     const auto event_of = [](const Component& c) { return c.common ? c.trend.event : 0; };
     const Trend& told = std::ranges::max_element(components.all, {}, event_of)->trend;

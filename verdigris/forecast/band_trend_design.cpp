@@ -35,9 +35,11 @@ bool on_or_off(const std::string& key, std::string_view value) {
 BandTrendDesign band_trend_design(const std::string& text) {
     BandTrendDesign d;
     const std::map<std::string, bool*> parts{
-        {"light", &d.light},           {"gray", &d.gray},        {"global", &d.global},
-        {"local", &d.local},           {"bands", &d.bands},      {"slowing", &d.prior.slowing},
-        {"bending", &d.prior.bending}, {"noise", &d.prior.noise}};
+        {"light", &d.light},           {"gray", &d.gray},
+        {"relight", &d.relight},       {"global", &d.global},
+        {"local", &d.local},           {"bands", &d.bands},
+        {"slowing", &d.prior.slowing}, {"bending", &d.prior.bending},
+        {"noise", &d.prior.noise}};
     struct Number {
         double* value;
         double least;

@@ -9,6 +9,7 @@ namespace verdigris {
 
 /// What is thought possible before anything is seen. What is off is an ablation.
 struct TrendPrior {
+    bool drift = true;    ///< change that goes on; else only levels that wander, and noise
     bool slowing = true;  ///< drifts that slow down
     bool bending = true;  ///< drifts that bend smoothly, beside those that wander
     bool noise = true;    ///< frames with white noise
@@ -19,11 +20,12 @@ struct TrendPrior {
 
 /// The parts of the method and its constants; docs/models/bandtrend.md. What is off is an ablation.
 struct BandTrendDesign {
-    bool light = true;   ///< frames are brought under the light of the last one
-    bool gray = true;    ///< unless a backdrop shows it, light is told apart as one gain of all
-    bool global = true;  ///< a drift that is affine in color, before all else
-    bool local = true;   ///< what that leaves
-    bool bands = true;   ///< split by how far it reaches; else it is one component
+    bool light = true;    ///< frames are brought under the light of the last one
+    bool relight = true;  ///< and where that light goes back to is forecast
+    bool gray = true;     ///< unless a backdrop shows it, light is told apart as one gain of all
+    bool global = true;   ///< a drift that is affine in color, before all else
+    bool local = true;    ///< what that leaves
+    bool bands = true;    ///< split by how far it reaches; else it is one component
     // chosen; docs/models/bandtrend.md has the sensitivity to all of them.
     double global_count = 2;     ///< a global drift has few independent parts: light, and color
     double largest_count = 100;  ///< neighbors are never as independent as they look
@@ -32,9 +34,9 @@ struct BandTrendDesign {
 };
 
 /// For ablations: "" is the method as it is; ":bands=0:confidence=0.5" differs in what is named.
-/// Keys: light, gray, global, local, bands, slowing, bending, noise (0 or 1); events, doubt,
-/// confidence, level, global-count, band-count (numbers of 0 and more; counts of 1 and more).
-/// Throws Error{usage} naming the key.
+/// Keys: light, relight, gray, global, local, bands, slowing, bending, noise (0 or 1); events,
+/// doubt, confidence, level, global-count, band-count (numbers of 0 and more; counts of 1 and
+/// more). Throws Error{usage} naming the key.
 BandTrendDesign band_trend_design(const std::string& text);
 
 }  // namespace verdigris

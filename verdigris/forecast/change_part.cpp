@@ -39,6 +39,19 @@ Image<SrgbF> mean_color(const std::vector<Image<SrgbF>>& frames) {
     return mean;
 }
 
+/// Derivative of encoded values by the log of the light.
+Image<SrgbF> light_slope(Image<SrgbF> picture) {
+    const double nudge = std::log1p(kNudge);
+    const Image<SrgbF> brighter = relit(picture, {1 + kNudge, 1 + kNudge, 1 + kNudge});
+    for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
+        SrgbF& c = picture.pixels()[i];
+        const SrgbF b = brighter.pixels()[i];
+        c = {float(double(b.r - c.r) / nudge), float(double(b.g - c.g) / nudge),
+             float(double(b.b - c.b) / nudge)};
+    }
+    return picture;
+}
+
 struct AffineMoments {
     Eigen::Matrix4d xx = Eigen::Matrix4d::Zero();
     MatrixXd xd;
@@ -147,16 +160,11 @@ ColorField AffinePart::combined(const Eigen::RowVectorXd& weights) const {
                     [&](int k, int y, float* out) { row_of(fit[std::size_t(k)], y, out); });
 }
 
-GrayPart::GrayPart(const Context& context, const Mask& moving, const Increments& increments)
-    : ChangePart(moving), slope_(mean_color(context.frames)) {
-    const double nudge = std::log1p(kNudge);
-    const Image<SrgbF> brighter = relit(slope_, {1 + kNudge, 1 + kNudge, 1 + kNudge});
-    for (std::size_t i = 0; i < slope_.pixels().size(); ++i) {
-        SrgbF& c = slope_.pixels()[i];
-        const SrgbF b = brighter.pixels()[i];
-        c = {float(double(b.r - c.r) / nudge), float(double(b.g - c.g) / nudge),
-             float(double(b.b - c.b) / nudge)};
-    }
+LightPart::LightPart(const Context& context, const Mask& moving, const Eigen::MatrixX3d& log_gains)
+    : ChangePart(moving), slope_(light_slope(mean_color(context.frames))), gains_(log_gains) {}
+
+LightPart::LightPart(const Context& context, const Mask& moving, const Increments& increments)
+    : ChangePart(moving), slope_(light_slope(mean_color(context.frames))) {
     const auto q = Eigen::Index(increments.size());
     const auto parts =
         map_rows<Eigen::VectorXd>(slope_.height(), rows_per_chunk(slope_.width()), [&](RowRun run) {
@@ -166,13 +174,15 @@ GrayPart::GrayPart(const Context& context, const Mask& moving, const Increments&
                 for (int x = 0; x < slope_.width(); ++x) {
                     if (moving(x, y) == 0) continue;
                     const SrgbF s = slope_(x, y);
-                    sums[q] += double(s.r) * double(s.r) + double(s.g) * double(s.g) +
-                               double(s.b) * double(s.b);
+                    const std::size_t at = row + std::size_t(x);
+                    const auto dot = [&](float r, float g, float b) {
+                        return double(s.r) * double(r) + double(s.g) * double(g) +
+                               double(s.b) * double(b);
+                    };
+                    sums[q] += dot(s.r, s.g, s.b);
                     for (Eigen::Index i = 0; i < q; ++i) {
                         const ColorField& d = increments[std::size_t(i)];
-                        const std::size_t at = row + std::size_t(x);
-                        sums[i] += double(s.r) * double(d[0][at]) + double(s.g) * double(d[1][at]) +
-                                   double(s.b) * double(d[2][at]);
+                        sums[i] += dot(d[0][at], d[1][at], d[2][at]);
                     }
                 }
             }
@@ -180,10 +190,10 @@ GrayPart::GrayPart(const Context& context, const Mask& moving, const Increments&
         });
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(q + 1);
     for (const Eigen::VectorXd& p : parts) sums += p;
-    gains_ = sums[q] > 0 ? Eigen::VectorXd(sums.head(q) / sums[q]) : Eigen::VectorXd::Zero(q);
+    gains_ = (sums.head(q) / std::max(sums[q], 1e-30)).replicate(1, 3);
 }
 
-void GrayPart::row_of(double gain, int channel, int y, float* out) const {
+void LightPart::row_of(double gain, int channel, int y, float* out) const {
     const SrgbF* slope = slope_.row(y);
     const std::uint8_t* inside = moving().row(y);
     const float g = float(gain);
@@ -193,13 +203,13 @@ void GrayPart::row_of(double gain, int channel, int y, float* out) const {
     }
 }
 
-void GrayPart::row(int increment, int channel, int y, float* out) const {
-    row_of(gains_[increment], channel, y, out);
+void LightPart::row(int increment, int channel, int y, float* out) const {
+    row_of(gains_(increment, channel), channel, y, out);
 }
 
-ColorField GrayPart::combined(const Eigen::RowVectorXd& weights) const {
-    const double gain = weights * gains_;
-    return field_of(moving(), [&](int k, int y, float* out) { row_of(gain, k, y, out); });
+ColorField LightPart::combined(const Eigen::RowVectorXd& weights) const {
+    const Eigen::RowVector3d gain = weights * gains_;
+    return field_of(moving(), [&](int k, int y, float* out) { row_of(gain[k], k, y, out); });
 }
 
 SmoothPart::SmoothPart(const Increments& increments, const Mask& moving, int sigma)

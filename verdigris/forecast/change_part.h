@@ -46,19 +46,22 @@ class AffinePart : public ChangePart {
     Eigen::MatrixXd fit_;  ///< [1 and red, green, blue x channels of increments]
 };
 
-/// Of each increment, what one gain of all light would do to it, as light, exposure and an iris do.
-class GrayPart : public ChangePart {
+/// Of each increment, what a gain of all light does to the mean picture.
+class LightPart : public ChangePart {
   public:
-    GrayPart(const Context& context, const Mask& moving, const Increments& increments);
-    int increments() const override { return int(gains_.size()); }
+    /// Gains that are known: their logs, [increments x channels].
+    LightPart(const Context& context, const Mask& moving, const Eigen::MatrixX3d& log_gains);
+    /// One gray gain per increment that fits it best, as light, exposure and an iris have it.
+    LightPart(const Context& context, const Mask& moving, const Increments& increments);
+    int increments() const override { return int(gains_.rows()); }
     void row(int increment, int channel, int y, float* out) const override;
     ColorField combined(const Eigen::RowVectorXd& weights) const override;
 
   private:
     void row_of(double gain, int channel, int y, float* out) const;
 
-    Image<SrgbF> slope_;     ///< of the encoded mean color by the log of the light
-    Eigen::VectorXd gains_;  ///< least-squares log gain of each increment
+    Image<SrgbF> slope_;  ///< of the encoded mean color by the log of the light
+    Eigen::MatrixX3d gains_;
 };
 
 /// Each increment under a Gaussian.

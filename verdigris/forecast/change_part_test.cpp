@@ -46,12 +46,12 @@ double energy(const Increments& increments) {
     return sum;
 }
 
-TEST(GrayPart, IsAllOfAFlicker) {
+TEST(LightPart, IsAllOfAFlicker) {
     const Context context = flickering();
     const Mask moving = all_but_an_edge();
-    Increments rest = increments_of(context, moving, false);
+    Increments rest = increments_of(context, moving, {});
     const double before = energy(rest);
-    const GrayPart part(context, moving, rest);
+    const LightPart part(context, moving, rest);
     ASSERT_EQ(part.increments(), 3);
     part.subtract(rest);
     EXPECT_LT(energy(rest), 1e-3 * before);
@@ -70,12 +70,12 @@ TEST(GrayPart, IsAllOfAFlicker) {
     }
 }
 
-TEST(GrayPart, LeavesAChangeOfColorAlone) {
+TEST(LightPart, LeavesAChangeOfColorAlone) {
     // Red rises by as much, weighed by what light would do, as blue falls.
     Context context = flickering();
     const Mask moving = all_but_an_edge();
     const Image<SrgbF> brighter = relit(pattern(), {1.01, 1.01, 1.01});
-    Increments turned = increments_of(context, moving, false);
+    Increments turned = increments_of(context, moving, {});
     for (ColorField& d : turned) {
         for (std::size_t at = 0; at < d[0].size(); ++at) {
             const bool inside = moving.pixels()[at] != 0;
@@ -86,16 +86,16 @@ TEST(GrayPart, LeavesAChangeOfColorAlone) {
         }
     }
     const double before = energy(turned);
-    const GrayPart part(context, moving, turned);
+    const LightPart part(context, moving, turned);
     part.subtract(turned);
     EXPECT_NEAR(energy(turned), before, 2e-3 * before);
 }
 
-TEST(GrayPart, CombinesAsItsRowsDo) {
+TEST(LightPart, CombinesAsItsRowsDo) {
     const Context context = flickering();
     const Mask moving = all_but_an_edge();
-    const Increments increments = increments_of(context, moving, false);
-    const GrayPart part(context, moving, increments);
+    const Increments increments = increments_of(context, moving, {});
+    const LightPart part(context, moving, increments);
     const Eigen::RowVector3d weights{0.5, -2, 1};
     const ColorField sum = part.combined(weights);
     Field row(kSide);

@@ -7,13 +7,13 @@
 #include "verdigris/pixels/parallel_rows.h"
 
 namespace verdigris {
-Increments increments_of(const Context& context, const Mask& moving, bool relight) {
+Increments increments_of(const Context& context, const Mask& moving, const LightGains& light) {
     const int n = context.length();
-    const auto light = relight ? backdrop_light(context)
-                               : std::vector<std::array<double, 3>>(std::size_t(n), {1, 1, 1});
     std::vector<Image<SrgbF>> relit_frames(std::size_t(n - 1));
     for (int i = 0; i + 1 < n; ++i)
-        relit_frames[std::size_t(i)] = relit(context.frames[std::size_t(i)], light[std::size_t(i)]);
+        relit_frames[std::size_t(i)] =
+            light.empty() ? context.frames[std::size_t(i)].clone()
+                          : relit(context.frames[std::size_t(i)], light[std::size_t(i)]);
     const auto frame = [&](int i) {
         return i + 1 < n ? relit_frames[std::size_t(i)].pixels() : context.frames.back().pixels();
     };

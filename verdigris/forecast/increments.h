@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "verdigris/forecast/backdrop_light.h"
 #include "verdigris/forecast/band_split.h"
 #include "verdigris/forecast/forecast.h"
 
@@ -14,8 +15,8 @@ namespace verdigris {
 using ColorField = std::array<Field, 3>;     ///< red, green, blue
 using Increments = std::vector<ColorField>;  ///< frame i + 1 less frame i; 0 outside of what moves
 
-/// Under the light of the last frame, by the backdrop; `relight` false: as they are.
-Increments increments_of(const Context& context, const Mask& moving, bool relight = true);
+/// Under the light of the last frame; without `light`: as they are.
+Increments increments_of(const Context& context, const Mask& moving, const LightGains& light);
 
 Image<SrgbF> image_of(const std::vector<const ColorField*>& planes,
                       const Eigen::RowVectorXd& weights, const Image<SrgbF>& like);

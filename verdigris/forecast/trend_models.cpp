@@ -72,8 +72,9 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     const VectorXd units_ahead = Eigen::Map<const VectorXd>(kTrendUnits.data(), units);
     const VectorXd doubted = 1 - (-(units_ahead / kTrusted).array().cube()).exp();
     const std::vector<Slowing> slowings =
-        prior.slowing ? std::vector<Slowing>(std::begin(kSlowing), std::end(kSlowing))
-                      : std::vector<Slowing>{{0, 1}};
+        prior.slowing && prior.drift
+            ? std::vector<Slowing>(std::begin(kSlowing), std::end(kSlowing))
+            : std::vector<Slowing>{{0, 1}};
     const std::vector<double> noises =
         prior.noise ? std::vector<double>(std::begin(kNoise), std::end(kNoise))
                     : std::vector<double>{0};
@@ -105,11 +106,13 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
                 weight * slowing.prior / double(noises.size()));
         }
     };
-    const double share =
-        1.0 / double(std::size(kWandering) + (prior.bending ? std::size(kBending) : 0));
+    const bool bending = prior.bending && prior.drift;
+    const std::size_t wandering = prior.drift ? std::size(kWandering) : 1;  // the first: rho of 0
+    const double share = 1.0 / double(wandering + (bending ? std::size(kBending) : 0));
     for (const Slowing& slowing : slowings) {
-        for (const double rho : kWandering) add_family(false, rho, slowing, share);
-        if (!prior.bending) continue;
+        for (std::size_t i = 0; i < wandering; ++i)
+            add_family(false, kWandering[i], slowing, share);
+        if (!bending) continue;
         for (const double rho : kBending) add_family(true, rho, slowing, share);
     }
     MatrixXd held = MatrixXd::Zero(units, q);
