@@ -204,6 +204,9 @@ TEST(BandTrend, EachPartIsWhatItsOwnSceneNeeds) {
     const double light[] = {1, 1.03, 0.98, 1.05, 1.08, 1.12};
     const Scene lit = [&](int t) { return plate(t, light[std::min(t, 5)]); };
     EXPECT_GT(worth(lit, seen(lit, 6), ":light=0"), 3);
+    const double flicker[] = {1, 1.03, 0.98, 1.02, 0.98, 1.03};
+    const Scene flickering = [&](int t) { return plate(0, t < 6 ? flicker[t] : 1); };
+    EXPECT_GT(worth(flickering, seen(flickering, 6), ":relight=0"), 1.5);
     const Scene still = [](int) { return plate(0); };
     EXPECT_GT(worth(still, seen(still, 5), ":noise=0"), 1.01);
     Context hand = seen(local, 6);

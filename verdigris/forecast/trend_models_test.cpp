@@ -29,6 +29,23 @@ TEST(TrendModels, ASteadyDriftGoesOnAndSlowsDown) {
     EXPECT_LT(ahead[kHundredUnits], 80);
 }
 
+TEST(TrendModels, WithoutDriftsALevelWandersOrIsNoisy) {
+    TrendPrior light;
+    light.drift = false;
+    const auto ahead = [&](const VectorXd& d) -> VectorXd {
+        return TrendModels(int(d.size()), light).trend(d * d.transpose(), 1).weights * d;
+    };
+    // A ramp is not carried on, and little of it is taken for noise.
+    const VectorXd ramp = ahead(VectorXd::Ones(9));
+    EXPECT_LE(ramp.maxCoeff(), 0);
+    EXPECT_GT(ramp.minCoeff(), -0.75);
+    // Of noise about a level, the last value goes back to the level: 0.45 below it.
+    const VectorXd values{{0.3, -0.5, 0.4, -0.2, 0.1, -0.4, 0.3, 0, 0.5}};
+    const VectorXd noise = ahead(values.tail(8) - values.head(8));
+    EXPECT_NEAR(noise[0], -0.4, 0.1);
+    EXPECT_NEAR(noise[kTenUnits], noise[0], 0.05);  // and stays there
+}
+
 TEST(TrendModels, ADriftThatDiesAwayIsSeenToDoSo) {
     VectorXd d(4);
     for (int i = 0; i < 4; ++i) d[i] = std::exp(-0.5 * i);
