@@ -16,6 +16,8 @@ namespace {
 constexpr std::int64_t kFewestPixels = 200;  // chosen: a median of fewer is noise
 constexpr std::int64_t kMostPixels = 20000;  // chosen: more say little more
 constexpr float kDarkest = 0.002f;           // linear; chosen: darker ratios are noise
+constexpr std::int64_t kGlance = 2000;
+constexpr double kGray = 1.0 / 7;  // chosen
 constexpr int kTable = 1024;
 
 /// What is said to be backdrop, or else what is not specimen.
@@ -35,35 +37,37 @@ float channel(const SrgbF& c, int k) {
 
 LightGains median_light(const Context& context, const std::vector<std::size_t>& pixels) {
     LightGains light(context.frames.size(), {1, 1, 1});
-    const auto last = context.frames.back().pixels();
-    parallel_for(int(context.frames.size()) - 1, [&](int i) {
-        const auto frame = context.frames[std::size_t(i)].pixels();
-        for (int k = 0; k < 3; ++k) {
-            std::vector<float> ratios;
-            for (const std::size_t at : pixels) {
-                const float before = linear_from_srgb(channel(frame[at], k));
-                if (before > kDarkest)
-                    ratios.push_back(linear_from_srgb(channel(last[at], k)) / before);
-            }
-            if (std::int64_t(ratios.size()) < kFewestPixels) continue;
-            const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
-            std::nth_element(ratios.begin(), middle, ratios.end());
-            if (*middle > 0) light[std::size_t(i)][std::size_t(k)] = double(*middle);
-        }
+    const auto linear = [&](const Image<SrgbF>& frame, int k, std::vector<float>& out) {
+        out.clear();
+        for (const std::size_t at : pixels)
+            out.push_back(linear_from_srgb(channel(frame.pixels()[at], k)));
+    };
+    std::array<std::vector<float>, 3> last;
+    parallel_for(3, [&](int k) { linear(context.frames.back(), k, last[std::size_t(k)]); });
+    parallel_for(3 * (int(context.frames.size()) - 1), [&](int job) {
+        const auto i = std::size_t(job / 3), k = std::size_t(job % 3);
+        std::vector<float> before, ratios;
+        linear(context.frames[i], int(k), before);
+        for (std::size_t at = 0; at < before.size(); ++at)
+            if (before[at] > kDarkest) ratios.push_back(last[k][at] / before[at]);
+        if (std::int64_t(ratios.size()) < kFewestPixels) return;
+        const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
+        std::nth_element(ratios.begin(), middle, ratios.end());
+        if (*middle > 0) light[i][k] = double(*middle);
     });
     return light;
 }
 
 /// One gain for all channels, as light and exposure have it and copper has not: channels differ by
-/// at most a seventh of the largest change. chosen
-bool is_gray(const LightGains& light) {
+/// at most this share of the largest change.
+bool is_gray(const LightGains& light, double share) {
     double largest = 0, apart = 0;
     for (const auto& gain : light) {
         const double r = std::log(gain[0]), g = std::log(gain[1]), b = std::log(gain[2]);
         largest = std::max(largest, std::abs(r + g + b) / 3);
         apart = std::max(apart, std::max({r, g, b}) - std::min({r, g, b}));
     }
-    return largest > 0 && apart <= largest / 7;
+    return largest > 0 && apart <= share * largest;
 }
 
 /// Do frames under this light differ by their noise alone, and as they are by more?
@@ -98,8 +102,10 @@ LightGains backdrop_light(const Context& context) {
     const Mask all = fit_mask(context, FitPixels::all);
     const auto pixels = sample_inside(all, kMostPixels);
     if (std::int64_t(pixels.size()) < kFewestPixels) return none;
+    // Hardly any picture is like that, and a glance shows it.
+    if (!is_gray(median_light(context, sample_inside(all, kGlance)), 2 * kGray)) return none;
     LightGains light = median_light(context, pixels);
-    return is_gray(light) && explains_all(context, light, all) ? light : none;
+    return is_gray(light, kGray) && explains_all(context, light, all) ? light : none;
 }
 
 Image<SrgbF> relit(const Image<SrgbF>& frame, const std::array<double, 3>& gain) {

@@ -176,7 +176,8 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     }
     const double best = *std::max_element(evidence.begin(), evidence.end());
     double total = 0;
-    for (double& e : evidence) total += e = std::exp(e - best);
+    // Most are out of the question, and an exponential of them costs as much as any.
+    for (double& e : evidence) total += e = e < best - 60 ? 0 : std::exp(e - best);
 
     // V is fitted to count q values: as of a t distribution, its uncertainty widens the error.
     const double freedom = std::max(count * q, 3.0);
