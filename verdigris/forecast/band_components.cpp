@@ -47,6 +47,13 @@ Component forecast_component(const ChangePart& part, const PartMoments& moments,
     return c;
 }
 
+/// Error of a trend among models that it does not follow: light is not forecast to go on, and may.
+Eigen::VectorXd error_if_it_goes_on(const Component& c, const TrendModels& models) {
+    const Trend wide = models.trend(c.increments, c.count);
+    const MatrixXd apart = wide.weights - c.trend.weights;
+    return wide.error + (apart * c.increments).cwiseProduct(apart).rowwise().sum();
+}
+
 /// Mean square of the increments, per pixel and channel.
 Image<SrgbF> energy_of(const Increments& d, const Mask& moving) {
     ColorField energy;
@@ -102,20 +109,23 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     const TrendModels& trends = models.of(q);
     const double area = double(count_inside(moving));
     Components out;
-    const auto add_light = [&](const LightPart& part, double count, const TrendModels& of_light) {
-        out.all.push_back(forecast_component(part, moments_of(part), count, of_light));
-        out.all.back().common = out.all.back().light = true;
+    const auto add_light = [&](Component made) {
+        made.common = made.light = true;
+        out.all.push_back(std::move(made));
     };
     const bool corrected = std::ranges::any_of(light, [](const auto& gain) {
         return gain != std::array<double, 3>{1, 1, 1};
     });
     if (corrected && design.relight) {
         // It was taken off the increments by relighting them; where it goes is another matter.
-        add_light(LightPart(context, moving, log_steps(light)), kLightCount, light_models.of(q));
+        const LightPart part(context, moving, log_steps(light));
+        Component c = forecast_component(part, moments_of(part), kLightCount, light_models.of(q));
+        if (!c.terms.empty()) c.trend.error = error_if_it_goes_on(c, trends);
+        add_light(std::move(c));
     }
     if (design.light && design.gray && !shows_light(context)) {
         const LightPart part(context, moving, rest);
-        add_light(part, design.global_count, trends);
+        add_light(forecast_component(part, moments_of(part), design.global_count, trends));
         part.subtract(rest);
     }
     if (design.global) {
