@@ -17,6 +17,7 @@ else
     --crop auto --horizons 20 --quiet 2>/dev/null
   cp -r "$scratch"/aged/textures/*_u000 "$scratch/maps"
 fi
+[ -d tests/browser/node_modules ] || npm ci --prefix tests/browser --silent --no-audit --no-fund
 rm -rf "$scratch/maps/masters16" "$scratch/maps/dx"   # all read the same 8 bits
 node tests/browser/render_scene.mjs sky "$scratch/sky.exr"
 
@@ -30,11 +31,11 @@ for scene in sphere plate; do
     --size $size --noise 1 --quiet
   node tests/browser/render_three.mjs "$scratch/maps" "$glb" "$scratch/sky.exr" $size "$scratch/${scene}_three.png" || true
   if command -v blender >/dev/null; then
-    blender -b --factory-startup -noaudio --python tests/blender/render_glb.py -- \
+    blender -b --factory-startup -noaudio --python-exit-code 1 --python tests/blender/render_glb.py -- \
       "$scratch/maps" "$glb" "$scratch/sky.exr" $size "$scratch/${scene}_cycles.png" >"$scratch/said" 2>&1 ||
       { echo "Blender failed:"; tail -5 "$scratch/said"; }
   else
-    echo "no Blender found (Debian 12: apt-get install --no-install-recommends blender): Cycles is left out"
+    echo "no Blender found (Debian 12: apt-get install --no-install-recommends blender python3-numpy): Cycles is left out"
   fi
   row=()
   for by in verdigris three cycles; do
@@ -48,6 +49,7 @@ for scene in sphere plate; do
     "$verdigris" compare "$scratch/${scene}_${by}_middle.png" "$scratch/${scene}_verdigris_middle.png" --metric flip,ssim
   done
   count=$((${#row[@]} / 2))
+  [ $count -gt 1 ] || { echo "$scene: nothing to compare with; no picture is made"; exit 1; }
   ffmpeg -v error -y "${row[@]}" -filter_complex "hstack=inputs=$count" "$scratch/row_$scene.png"
   columns+=(-i "$scratch/row_$scene.png")
 done

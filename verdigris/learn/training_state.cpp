@@ -2,10 +2,12 @@
 #include "verdigris/learn/training_state.h"
 
 #include <fmt/format.h>
-#include <torch/version.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <type_traits>
+#include <utility>
 
 #include "verdigris/error.h"
 #include "verdigris/learn/tensor_file.h"
@@ -16,13 +18,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr const char* kOptimizer = "optimizer/";
 
-/// How an optimizer names a parameter: libtorch 1 by the text of its address, 2 by the address.
-auto key_of(const torch::Tensor& parameter) {
-#if TORCH_VERSION_MAJOR >= 2
-    return static_cast<void*>(parameter.unsafeGetTensorImpl());
-#else
-    return c10::guts::to_string(parameter.unsafeGetTensorImpl());
-#endif
+/// How an optimizer names a parameter: up to libtorch 2.0 by the text of its address, later by the
+/// address.
+using ParameterKey =
+    std::remove_cvref_t<decltype(std::declval<torch::optim::AdamW&>().state())>::key_type;
+template <class Key>
+Key key_as(void* address) {
+    if constexpr (std::is_same_v<Key, std::string>) {
+        std::ostringstream text;
+        text << address;
+        return text.str();
+    } else {
+        return address;
+    }
+}
+ParameterKey key_of(const torch::Tensor& parameter) {
+    return key_as<ParameterKey>(parameter.unsafeGetTensorImpl());
 }
 
 Json json_of(const EpochRecord& e) {
