@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -37,8 +38,7 @@ struct Arguments {
 /// Any picture we read as encoded sRGB; `notes` is told what that cost, by file.
 Image<SrgbF> encoded_picture(const std::string& path, Statuses& notes) {
     const ImageFile file = read_image(path);
-    for (const Status& n : file.notes)
-        notes.push_back({n.id, n.severity, fs::path(path).filename().string() + ": " + n.sentence});
+    notes.insert(notes.end(), file.notes.begin(), file.notes.end());  // each names the file
     Image<SrgbF> out = Image<SrgbF>::for_overwrite(file.info.width, file.info.height);
     const auto convert = [&]<class P>(const Image<P>& image) {
         parallel_rows(image.height(), 32, [&](RowRun run) {
@@ -124,6 +124,9 @@ void print(Session& session, const Arguments& a, const Comparison& c, int width,
 void check_map(const Arguments& a) {
     if (a.map.empty()) return;
     if (!a.wants("flip")) throw Error(ErrorCode::usage, "--map draws FLIP: add flip to --metric");
+    std::string extension = fs::path(a.map).extension().string();
+    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    if (extension != ".png") throw Error(ErrorCode::usage, "--map is written as a .png", a.map);
     for (const std::string& input : {a.reference, a.test}) {
         std::error_code ignored;
         if (fs::equivalent(a.map, input, ignored))

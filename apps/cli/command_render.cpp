@@ -17,6 +17,7 @@
 #include "verdigris/files/image_file.h"
 #include "verdigris/files/png.h"
 #include "verdigris/recording/recording_writer.h"
+#include "verdigris/render/material_folder.h"
 #include "verdigris/render/model.h"
 #include "verdigris/render/settings.h"
 #include "verdigris/render/tone_map.h"
@@ -38,9 +39,14 @@ struct Arguments {
 
 enum class OutputKind { png, exr, mp4 };
 
-OutputKind output_kind(const Arguments& a) {
-    std::string extension = fs::path(a.output).extension().string();
+std::string lower_extension(const fs::path& path) {
+    std::string extension = path.extension().string();
     for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+OutputKind output_kind(const Arguments& a) {
+    const std::string extension = lower_extension(a.output);
     if (extension == ".png") return OutputKind::png;
     if (extension == ".exr") return OutputKind::exr;
     if (extension == ".mp4") return OutputKind::mp4;
@@ -55,10 +61,25 @@ void check_new(const fs::path& target, bool force) {
     }
 }
 
+// Not even --force means these: they are what the picture is made of.
+void check_no_input(const fs::path& target, const Arguments& a) {
+    std::vector<fs::path> inputs{a.light, a.scene};
+    if (is_material_folder(a.input)) {
+        const std::vector<fs::path> maps = maps_of_material_folder(a.input);
+        inputs.insert(inputs.end(), maps.begin(), maps.end());
+    }
+    for (const fs::path& input : inputs) {
+        std::error_code error;
+        if (fs::equivalent(target, input, error))
+            throw Error(ErrorCode::usage, "is rendered from; -o would overwrite it",
+                        target.string());
+    }
+}
+
 Setting setting_of(const Arguments& a, double aspect) {
     if (const auto kind = scene_kind_from(a.scene)) return make_setting(*kind, aspect);
     const fs::path path = a.scene;
-    if (path.extension() != ".glb") {
+    if (lower_extension(path) != ".glb") {
         throw Error(
             ErrorCode::usage,
             fmt::format("--scene is plate, sphere, drape or a .glb; '{}' is none", a.scene));
@@ -215,6 +236,7 @@ void run(Session& session, Arguments a) {
     std::set<fs::path> paths;
     for (const double h : horizons) {
         const fs::path path = still_path(a, horizons, h);
+        check_no_input(path, a);
         check_new(path, session.force);
         if (!paths.insert(path).second) {
             throw Error(ErrorCode::usage,

@@ -82,7 +82,7 @@ if command -v ffmpeg >/dev/null; then
   "$verdigris" compare "$a" "$scratch/alpha.png" --metric psnr --json >"$scratch/alpha.json" 2>/dev/null ||
     fail "a picture with alpha failed"
   grep -q '"identical": true' "$scratch/alpha.json" || fail "alpha changes the colors"
-  grep -q 'alpha\.png: the alpha channel is ignored' "$scratch/alpha.json" || fail "ignored alpha is not told"
+  grep -q '"alpha\.png: the alpha channel is ignored' "$scratch/alpha.json" || fail "ignored alpha is not told, or its file is named twice"
 fi
 
 # Bad input: one sentence, the right status, no map.
@@ -104,6 +104,8 @@ bad 2 "lpips-net" "$a" "$b" --lpips-net resnet
 before=$(sha256sum <"$b")
 expect 2 "0011\.png.*overwrite" "$verdigris" compare "$a" "$b" --map "$b"
 [ "$(sha256sum <"$b")" = "$before" ] || fail "a picture was overwritten"
+expect 2 "map\.jpg: .*\.png" "$verdigris" compare "$a" "$b" --map "$scratch/map.jpg"
+[ ! -e "$scratch/map.jpg" ] || fail "a PNG is called .jpg"
 : >"$scratch/file"
 expect 1 "file/map\.png" "$verdigris" compare "$a" "$b" --map "$scratch/file/map.png"
 [ ! -s "$scratch/stdout" ] || fail "results were told although the map failed"

@@ -37,7 +37,8 @@ expect_no_partials "$scratch"
 "$verdigris" render "$scratch/aged" -o "$scratch/sky.png" --light "$scratch/skies/good.exr" "${tiny[@]}" ||
   fail "no light from surroundings"
 ! cmp -s "$scratch/sky.png" "$scratch/sphere.png" || fail "the light does not matter"
-"$verdigris" render "$scratch/aged" -o "$scratch/model.png" --scene "$scratch/aged/aged.glb" "${tiny[@]}" ||
+cp "$scratch/aged/aged.glb" "$scratch/AGED.GLB"
+"$verdigris" render "$scratch/aged" -o "$scratch/model.png" --scene "$scratch/AGED.GLB" "${tiny[@]}" ||
   fail "no model"
 
 # Videos: as long as asked for.
@@ -54,6 +55,16 @@ before=$(sha256sum <"$scratch/plate.png")
 expect 4 "plate\.png.*--force" "$verdigris" render "$scratch/aged" -o "$scratch/plate.png" --size 48
 [ "$(sha256sum <"$scratch/plate.png")" = "$before" ] || fail "plate.png was replaced"
 "$verdigris" render "$scratch/aged" -o "$scratch/plate.png" --force "${tiny[@]}" || fail "--force"
+
+# Not even with --force what the picture is made of.
+cp -r "$pack" "$scratch/own"
+cp "$scratch/skies/good.exr" "$scratch/own/sky.exr"
+before=$(find "$scratch/own" -type f -exec sha256sum {} + | sort | sha256sum)
+color=$(find "$scratch/own" -maxdepth 1 -name '*_Color.png')
+expect 2 "_Color\.png: .*overwrite" "$verdigris" render "$scratch/own" -o "$color" --force --size 16
+expect 2 "sky\.exr: .*overwrite" "$verdigris" render "$scratch/own" -o "$scratch/own/sky.exr" \
+  --light "$scratch/own/sky.exr" --force --size 16
+[ "$(find "$scratch/own" -type f -exec sha256sum {} + | sort | sha256sum)" = "$before" ] || fail "an input was overwritten"
 
 # What makes no sense, and what is damaged: one sentence, nothing written.
 bad() { # bad STATUS PATTERN ARGUMENTS...

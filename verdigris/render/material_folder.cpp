@@ -128,6 +128,18 @@ bool is_material_folder(const fs::path& folder) {
     return fs::is_directory(folder, error) && find(folder, kColor).has_value();
 }
 
+std::vector<fs::path> maps_of_material_folder(const fs::path& folder) {
+    std::vector<fs::path> maps;
+    for (const Endings endings : {Endings(kColor), Endings(kNormalUp), Endings(kNormalDown),
+                                  Endings(kRoughness), Endings(kMetallic), Endings(kOrm)}) {
+        const auto read = find(folder, endings);
+        if (!read) continue;
+        maps.push_back(folder / read->filename());
+        if (*read != maps.back()) maps.push_back(*read);
+    }
+    return maps;
+}
+
 Material read_material_folder(const fs::path& folder) {
     std::error_code error;
     if (!fs::is_directory(folder, error)) refuse(folder, "is not a folder of maps");

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "verdigris/material/material.h"
 
@@ -26,5 +27,8 @@ Material read_material_folder(const std::filesystem::path& folder);
 
 /// True if a folder holds a map of colors: what read_material_folder() begins with.
 bool is_material_folder(const std::filesystem::path& folder);
+
+/// Its maps, with those in masters16/: what a picture of it must not be written over.
+std::vector<std::filesystem::path> maps_of_material_folder(const std::filesystem::path& folder);
 
 }  // namespace verdigris

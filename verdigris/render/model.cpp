@@ -30,6 +30,15 @@ constexpr const char* kMeshopt = "EXT_meshopt_compression";
     throw Error(ErrorCode::bad_input, sentence, where);
 }
 
+// Words of a file, fit for a terminal: no escape sequences, no page of text.
+std::string printable(const std::string& text, std::size_t most) {
+    std::string shown = text.substr(0, std::min(text.find('\n'), most));
+    for (char& c : shown) {
+        if (c < ' ' || c > '~') c = '?';
+    }
+    return shown;
+}
+
 std::uint32_t little_endian(const std::vector<std::byte>& b, std::size_t at) {
     return std::uint32_t(b[at]) | std::uint32_t(b[at + 1]) << 8 | std::uint32_t(b[at + 2]) << 16 |
            std::uint32_t(b[at + 3]) << 24;
@@ -74,8 +83,14 @@ tinygltf::Model parsed(const std::string& where, const std::vector<std::byte>& b
     loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
                              const unsigned char*, int, void*) { return true; },
                           nullptr);
+    std::string elsewhere;  // the first other file that it asks for
     tinygltf::FsCallbacks none{};
-    none.FileExists = [](const std::string&, void*) { return false; };
+    none.user_data = &elsewhere;
+    none.FileExists = [](const std::string& path, void* asked) {
+        auto& first = *static_cast<std::string*>(asked);
+        if (first.empty()) first = path;
+        return false;
+    };
     none.ExpandFilePath = [](const std::string& path, void*) { return path; };
     none.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) {
         return false;
@@ -94,8 +109,13 @@ tinygltf::Model parsed(const std::string& where, const std::vector<std::byte>& b
     } catch (const std::exception& error) {
         errors = error.what();
     }
+    if (!read && !elsewhere.empty()) {
+        refuse(where, fmt::format("keeps a part of itself in another file ('{}'), which is not "
+                                  "read; export it as one .glb",
+                                  printable(elsewhere, 80)));
+    }
     if (!read) {
-        const std::string first = errors.substr(0, std::min(errors.find('\n'), std::size_t(120)));
+        const std::string first = printable(errors, 120);
         refuse(where, "is not a valid GLB" + (first.empty() ? "" : ": " + first));
     }
     return model;
@@ -138,11 +158,8 @@ class Assembly {
                 continue;
             }
             if (name == kDraco || name == kMeshopt) refuse_compressed(name);
-            std::string shown = name.substr(0, 40);
-            for (char& c : shown) {
-                if (c < ' ' || c > '~') c = '?';
-            }
-            refuse(where_, fmt::format("needs '{}', an extension of glTF that is not read", shown));
+            refuse(where_, fmt::format("needs '{}', an extension of glTF that is not read",
+                                       printable(name, 40)));
         }
     }
 

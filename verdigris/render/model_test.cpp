@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/render/model.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -162,6 +163,24 @@ TEST_F(Model, WhatItCannotDoWithoutIsReadOrRefused) {
                              "KHR_texture_basisu", "EXT_texture_webp"}) {
         EXPECT_EQ(read(needs(fine)).triangles.size(), 2u) << fine;
     }
+}
+
+TEST_F(Model, NoOtherFileIsRead) {
+    Quad quad;
+    const auto kept_in = [&](const std::string& uri) {
+        std::string json = quad.json();
+        json.replace(json.find(R"({"byteLength":92})"), 17,
+                     R"({"byteLength":92,"uri":")" + uri + "\"}");
+        return glb(json, quad.data);
+    };
+    put_bytes(folder_ / "beside.bin", std::as_bytes(std::span(quad.data)));
+    for (const char* uri : {"beside.bin", "/etc/passwd", "../../etc/hostname", "http://127.0.0.1/"})
+        expect_refused(kept_in(uri), fmt::format("in another file ('{}'), which is not read", uri));
+    // Escape sequences of a terminal do not get through here either.
+    expect_refused(kept_in("x\\u001b[31m" + std::string(500, 'y')), "('x?[31myyy");
+    expect_refused(glb("{\"asset\": \"\x1b[31m", {}), "is not a valid GLB");
+    const Error error = error_of([&] { read(glb("{\"asset\": \"\x1b[31m", {})); });
+    EXPECT_EQ(std::string(error.what()).find('\x1b'), std::string::npos);
 }
 
 TEST_F(Model, WithoutAreaOneSentence) {
