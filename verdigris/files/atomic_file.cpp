@@ -44,13 +44,25 @@ std::filesystem::path resolved(const std::filesystem::path& target) {
     return path;
 }
 
+// 200 bytes of the name leave room for pid and counter in the usual limit of 255.
+std::string temporary_prefix(const std::filesystem::path& target) {
+    return "." + target.filename().string().substr(0, 200) + ".";
+}
+
 std::filesystem::path temporary_name(const std::filesystem::path& target) {
     static std::atomic<unsigned> counter{0};
-    // 200 bytes of the name leave room for pid and counter in the usual limit of 255.
-    std::string name = target.filename().string();
-    name.resize(std::min(name.size(), std::size_t(200)));
-    return target.parent_path() / ("." + name + "." + std::to_string(::getpid()) + "-" +
+    return target.parent_path() / (temporary_prefix(target) + std::to_string(::getpid()) + "-" +
                                    std::to_string(++counter) + ".tmp");
+}
+
+// The pid and the counter of temporary_name().
+bool is_pid_and_counter(std::string_view text) {
+    const std::size_t dash = text.find('-');
+    const auto number = [](std::string_view t) {
+        return !t.empty() && t.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    return dash != std::string_view::npos && number(text.substr(0, dash)) &&
+           number(text.substr(dash + 1));
 }
 
 // The rename is on disk only when its folder is. Some file systems cannot sync a folder; the file
@@ -159,6 +171,25 @@ Container read_whole(const std::filesystem::path& path, std::size_t limit) {
 }
 
 }  // namespace
+
+void remove_abandoned(const std::filesystem::path& target) {
+    constexpr std::string_view kEnding = ".tmp";
+    const std::string prefix = temporary_prefix(target);
+    const auto folder =
+        target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
+    std::vector<std::filesystem::path> left;
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+         entry.increment(error)) {
+        const std::string whole = entry->path().filename().string();
+        std::string_view name = whole;
+        if (!name.starts_with(prefix) || !name.ends_with(kEnding)) continue;
+        name.remove_prefix(prefix.size());
+        name.remove_suffix(std::min(name.size(), kEnding.size()));
+        if (is_pid_and_counter(name)) left.push_back(entry->path());
+    }
+    for (const auto& path : left) std::filesystem::remove(path, error);
+}
 
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::size_t limit) {
     return read_whole<std::vector<std::byte>>(path, limit);

@@ -43,6 +43,10 @@ class AtomicFile {
 void write_file(const std::filesystem::path& target, std::span<const std::byte> bytes);
 void write_file(const std::filesystem::path& target, std::string_view text);
 
+/// Removes the temporaries of `target` that killed processes left beside it. Only where nobody else
+/// can be writing `target`, as in a folder that is locked. What cannot be removed stays.
+void remove_abandoned(const std::filesystem::path& target);
+
 /// The whole file. Throws Error{bad_input}: missing, unreadable, a folder, or over `limit` bytes.
 std::vector<std::byte> read_file(const std::filesystem::path& path,
                                  std::size_t limit = std::size_t(1) << 31);

@@ -125,6 +125,25 @@ TEST(AtomicFile, AFullDiskIsASentenceAndLeavesNothing) {
     EXPECT_EQ(entry_count(folder.path()), 1);
 }
 
+TEST(RemoveAbandoned, TakesTheTemporariesOfThatFileAlone) {
+    const ScratchFolder folder;
+    fs::path there;
+    {
+        AtomicFile file(folder / "a");
+        there = file.temporary();
+    }
+    write_file(there, "half");  // as if the process had been killed
+    for (const char* other : {"a", "ab", ".a.tmp", ".a.notes.tmp", ".a.1-x.tmp", ".ab.1-1.tmp",
+                              ".a.1-1.tmp.txt", "a.1-1.tmp"})
+        write_file(folder / other, "kept");
+    write_file(folder / ".a.77-3.tmp", "half");
+    remove_abandoned(folder / "a");
+    EXPECT_FALSE(fs::exists(there));
+    EXPECT_FALSE(fs::exists(folder / ".a.77-3.tmp"));
+    EXPECT_EQ(entry_count(folder.path()), 8);
+    EXPECT_NO_THROW(remove_abandoned(folder / "missing" / "a"));
+}
+
 TEST(ReadFile, RoundTripsBytes) {
     const ScratchFolder folder;
     std::vector<std::byte> bytes;

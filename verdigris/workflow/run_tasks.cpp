@@ -187,6 +187,7 @@ class Workflow {
             if (error)
                 throw Error(ErrorCode::failed, "cannot be removed: " + error.message(),
                             in_folder(output).string());
+            remove_abandoned(in_folder(output));  // a folder's went with it; a file's lie beside it
             fs::create_directories(in_folder(output).parent_path(), error);
         }
     }

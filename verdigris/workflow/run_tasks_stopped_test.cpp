@@ -88,6 +88,26 @@ TEST(RunTasksStopped, AKilledRunLeavesNoChildAndIsDoneAgain) {
     EXPECT_FALSE(fs::exists(folder / "out/left.txt")) << "what was half done was not cleaned";
 }
 
+TEST(RunTasksStopped, NoTemporaryOfAKilledTaskStaysBesideItsFile) {
+    const ScratchFolder folder;
+    // As AtomicFile does it: under another name until it is whole.
+    const TaskGraph graph({shell_task(
+        "film",
+        "mkdir -p films; echo half > films/.film.mkv.$$-1.tmp; echo $$ > pid.txt; "
+        "while [ ! -e go ]; do sleep 0.02; done; mv films/.film.mkv.$$-1.tmp films/film.mkv",
+        {}, {"films/film.mkv"})});
+    const WorkflowOptions options = shell_options(folder.path());
+    run_and_kill(graph, options);
+    const auto count = [&] {
+        return std::distance(fs::directory_iterator(folder / "films"), fs::directory_iterator());
+    };
+    EXPECT_EQ(count(), 1);
+    write_file(folder / "go", "");
+    EXPECT_EQ(states(graph, run_tasks(graph, options)).at("film"), TaskState::done);
+    EXPECT_TRUE(fs::exists(folder / "films/film.mkv"));
+    EXPECT_EQ(count(), 1) << "what was half written was left";
+}
+
 TEST(RunTasksStopped, WhatCanGoOnGoesOn) {
     const ScratchFolder folder;
     const TaskGraph graph({training()});
