@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -22,7 +23,8 @@ namespace {
 
 constexpr int kMostDepth = 64;          // of nodes, and of the JSON around them
 constexpr float kMostDistance = 1e12f;  // the square of its square is still a number
-constexpr std::size_t kMostNodes = 1'000'000;
+// Of nodes and of the parts of their meshes: with a few bytes one is asked for a million times.
+constexpr std::size_t kMostVisits = 1'000'000;
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
@@ -106,8 +108,8 @@ tinygltf::Model parsed(const std::string& where, const std::vector<std::byte>& b
                                            unsigned(bytes.size()));
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception& error) {
-        errors = error.what();
+    } catch (const std::exception&) {
+        errors = "its parts do not fit together";  // what() speaks of tinygltf's containers
     }
     if (!read && !elsewhere.empty()) {
         refuse(where, fmt::format("keeps a part of itself in another file ('{}'), which is not "
@@ -188,7 +190,7 @@ class Assembly {
     void add_node(int index, const Matrix4& parent, int depth) {
         if (index < 0 || index >= int(model_.nodes.size())) refuse(where_, "has no such node");
         if (depth > kMostDepth) refuse(where_, "has nodes within nodes, too deep or in a circle");
-        if (++nodes_ > kMostNodes) refuse(where_, "has more nodes than can be drawn");
+        count_visit();
         const tinygltf::Node& node = model_.nodes[std::size_t(index)];
         const std::optional<Matrix4> own =
             matrix_of(node.matrix, node.translation, node.rotation, node.scale);
@@ -198,9 +200,14 @@ class Assembly {
         for (const int child : node.children) add_node(child, matrix, depth + 1);
     }
 
+    void count_visit() {
+        if (++visits_ > kMostVisits) refuse(where_, "has more nodes and meshes than can be drawn");
+    }
+
     void add_mesh(int index, const Matrix4& matrix) {
         if (index < 0 || index >= int(model_.meshes.size())) refuse(where_, "has no such mesh");
         for (const tinygltf::Primitive& p : model_.meshes[std::size_t(index)].primitives) {
+            count_visit();
             add_primitive(p, matrix);
         }
     }
@@ -235,7 +242,8 @@ class Assembly {
                 refuse(where_, "has a mesh whose attributes differ in length");
             }
         }
-        const std::vector<std::uint32_t> order = vertex_order(p, count);
+        std::vector<std::uint32_t> order = vertex_order(p, count);
+        if (order.empty()) return;
         if (shape_.triangles.size() + order.size() / 3 > kMaxTriangles) {
             refuse(where_, fmt::format("has more than {} triangles", kMaxTriangles));
         }
@@ -246,9 +254,11 @@ class Assembly {
         const bool mirrored = turn.determinant() < 0;
         const auto first = std::uint32_t(shape_.vertex_count());
         const bool flat = !normals.valid();
-        const std::size_t made = flat ? order.size() : count;
+        std::vector<std::uint32_t> used;  // empty: all
+        if (!flat && count > order.size()) used = only_used(order);
+        const std::size_t made = flat ? order.size() : used.empty() ? count : used.size();
         for (std::size_t k = 0; k < made; ++k) {
-            const std::size_t i = flat ? order[k] : k;
+            const std::size_t i = flat ? order[k] : used.empty() ? k : used[k];
             const auto at = positions.read<3>(i);
             const Vec3F moved = matrix.moved({at[0], at[1], at[2]});
             if (!(dot(moved, moved) < kMostDistance * kMostDistance)) {
@@ -280,6 +290,18 @@ class Assembly {
             if (flat) flatten(t);
             shape_.triangles.push_back(t);
         }
+    }
+
+    // The vertices that triangles have, in their order; `order` then counts in these. So no node
+    // that shows a mesh again takes more memory than its triangles do.
+    static std::vector<std::uint32_t> only_used(std::vector<std::uint32_t>& order) {
+        std::vector<std::uint32_t> used = order;
+        std::sort(used.begin(), used.end());
+        used.erase(std::unique(used.begin(), used.end()), used.end());
+        for (std::uint32_t& i : order) {
+            i = std::uint32_t(std::lower_bound(used.begin(), used.end(), i) - used.begin());
+        }
+        return used;
     }
 
     void flatten(const std::array<std::uint32_t, 3>& t) {
@@ -323,7 +345,7 @@ class Assembly {
     const tinygltf::Model& model_;
     Shape shape_;
     bool has_tangents_ = true;
-    std::size_t nodes_ = 0;
+    std::size_t visits_ = 0;
 };
 
 }  // namespace

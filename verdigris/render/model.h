@@ -20,7 +20,9 @@ inline constexpr std::size_t kMaxTriangles = 20'000'000;
 /// Throws Error{bad_input} with a sentence: not a GLB, truncated, a number that points outside of
 /// the file or is not finite, compressed (Draco, meshopt), an extension it cannot do without that
 /// is not read, sparse, no triangles, none with an area, more than kMaxTriangles, no texture
-/// coordinates.
+/// coordinates, numbers in another file (none is opened), more than a million nodes and parts of
+/// meshes, each counted as often as it is shown. Where a part has more vertices than its triangles
+/// have corners, those without a triangle are left out.
 Shape read_model(const std::filesystem::path& path);
 
 }  // namespace verdigris

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 
+#include "verdigris/files/atomic_file.h"
 #include "verdigris/files/testing.h"
 #include "verdigris/render/settings.h"
 #include "verdigris/render/vector.h"
@@ -193,6 +194,58 @@ TEST_F(Model, WithoutAreaOneSentence) {
     quad.node = R"({"mesh":0,"scale":[1e-30,1e-30,1e-30],"translation":[0,0,0]})";
     const Setting small = make_setting(read(quad.bytes()));
     for (const Vec3F& p : small.shape.positions) EXPECT_NEAR(length(p), 1, 1e-5f);
+}
+
+TEST_F(Model, WhatLiesElsewhereIsNamedAndNotRead) {
+    Quad quad;
+    const std::string buffer = R"({"byteLength":92})";
+    const auto with = [&](const std::string& other) {
+        std::string json = quad.json();
+        return glb(json.replace(json.find(buffer), buffer.size(), other), quad.data);
+    };
+    write_file(folder_ / "numbers.bin", quad.data);
+    expect_refused(with(R"({"byteLength":92,"uri":"numbers.bin"})"),
+                   "another file ('numbers.bin'), which is not read");
+    expect_refused(with(R"({"byteLength":92,"uri":"\u001b[31m"})"), "another file ('?[31m')");
+    expect_refused(with(R"({"byteLength":0})"), "is not a valid GLB: its parts do not fit");
+}
+
+// Otherwise a file of a megabyte whose nodes show one mesh often takes all memory.
+TEST_F(Model, VerticesWithoutTrianglesAreLeftOut) {
+    Quad quad;
+    quad.attributes = R"("POSITION":0,"TEXCOORD_0":1,"NORMAL":0,"TANGENT":3)";
+    quad.node = R"({"children":[1,1]},{"mesh":0})";
+    std::string json = quad.json();
+    const auto replace = [&](const std::string& old, const std::string& by) {
+        ASSERT_NE(json.find(old), std::string::npos) << old;
+        json.replace(json.find(old), old.size(), by);
+    };
+    replace(R"("count":6,"type":"SCALAR"})",
+            R"("count":3,"type":"SCALAR"},)"
+            R"({"bufferView":3,"componentType":5126,"count":4,"type":"VEC4"})");
+    replace(R"("byteOffset":80,"byteLength":12})",
+            R"("byteOffset":80,"byteLength":12},{"buffer":0,"byteOffset":92,"byteLength":64})");
+    replace(R"("byteLength":92})", R"("byteLength":156})");
+    for (int i = 0; i < 4; ++i) append<float>(quad.data, {1, 0, 0, 1});
+    quad.data[82] = 3;  // the second index: vertex 1 has no triangle
+    const Shape s = read(glb(json, quad.data));
+    ASSERT_EQ(s.triangles.size(), 2u);
+    ASSERT_EQ(s.vertex_count(), 6u);
+    EXPECT_EQ(s.triangles[1], (std::array<std::uint32_t, 3>{3, 5, 4}));
+    EXPECT_EQ(s.positions[5], (Vec3F{-1, 1, 0})) << "the fourth";
+    EXPECT_EQ(s.coordinates[5].v, 0);
+}
+
+TEST_F(Model, PartsWithoutTrianglesAreCountedToo) {
+    Quad quad;
+    std::string lines, children = "1";
+    for (int i = 0; i < 2000; ++i) lines += R"(,{"attributes":{"POSITION":0},"mode":1})";
+    for (int i = 0; i < 600; ++i) children += ",1";
+    quad.node = R"({"children":[)" + children + R"(]},{"mesh":0})";
+    std::string json = quad.json();
+    const std::string end = R"("indices":2})";
+    json.insert(json.find(end) + end.size(), lines);
+    expect_refused(glb(json, quad.data), "more nodes and meshes than can be drawn");
 }
 
 TEST_F(Model, StripsAndFansAreTriangles) {
