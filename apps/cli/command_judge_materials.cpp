@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "commands.h"
 #include "judged.h"
@@ -49,6 +50,8 @@ std::vector<std::pair<std::string, Image<SrgbU8>>> contacts(const MaterialJudgme
 void run(Session& session, Arguments a) {
     check_results_folder(a.judge.output, kMaterialsFile, session.force);
     MaterialJudgeOptions& options = a.options;
+    if (!std::isfinite(options.pixels_per_degree))  // "nan" passes every range
+        throw Error(ErrorCode::usage, "--ppd: pixels per degree are a number");
     options.horizons = sorted(a.horizons);
     options.view.scene = *scene_kind_from(a.scene);
     options.scale = a.scale == "frame" ? CoverageScale::frame : CoverageScale::truth;

@@ -15,6 +15,7 @@
 #include "verdigris/files/atomic_file.h"
 #include "verdigris/files/folder_lock.h"
 #include "verdigris/files/sha256.h"
+#include "verdigris/recording/recording.h"
 #include "verdigris/report/table_formats.h"
 #include "verdigris/reproduce/reproduce.h"
 #include "verdigris/results/result_files.h"
@@ -54,6 +55,12 @@ void check_two_recordings(const std::vector<fs::path>& recordings) {
                     recordings[1].string());
 }
 
+/// Likewise what is no recording; nothing of it is decoded yet.
+void check_recordings(const ReproductionOptions& options) {
+    for (const fs::path& r : options.recordings) open_recording(r);
+    if (!options.copper.empty()) open_recording(options.copper);
+}
+
 ReproductionOptions options_of(const Arguments& a) {
     ReproductionOptions options;
     for (const std::string& r : a.recordings) options.recordings.push_back(input_path(r));
@@ -75,10 +82,16 @@ void check_same_settings(const fs::path& folder, const ReproductionOptions& opti
     const fs::path mark = folder / kReproductionFile;
     if (!fs::is_regular_file(mark, error) || force) return;
     const Json before = Json::parse(read_text(mark), nullptr, false);
-    if (before.is_discarded() || !before.contains("settings"))
+    const Json now = settings_json(options);
+    const auto same_kind = [&](const char* key) {
+        return before["settings"].contains(key) &&
+               before["settings"][key].type() == now[key].type();
+    };
+    if (!before.is_object() || !before.contains("settings") || !same_kind("quick") ||
+        !same_kind("recordings"))
         throw Error(ErrorCode::bad_input, "is not what `reproduce` writes", mark.string());
-    if (before.at("settings") == settings_json(options)) return;
-    const bool quick = before.at("settings").value("quick", false);
+    if (before["settings"] == now) return;
+    const bool quick = before["settings"]["quick"];
     throw Error(ErrorCode::refused,
                 fmt::format("was begun {}; choose another folder, or use --force to do again what "
                             "differs",
@@ -135,6 +148,7 @@ void tell_outcomes(Session& session, const std::vector<TaskOutcome>& outcomes) {
 
 void run(Session& session, const Arguments& a) {
     const ReproductionOptions options = options_of(a);
+    check_recordings(options);
     check_two_recordings(options.recordings);
     const fs::path folder = fs::absolute(a.output).lexically_normal();
     const TaskGraph graph(reproduction_tasks(options));

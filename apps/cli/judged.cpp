@@ -107,6 +107,10 @@ std::vector<Observation> observe_all(Session& session, const JudgeArguments& a) 
     options.keep = Keep::every_sample;
     std::vector<Observation> observations;
     std::set<std::string> taken;
+    // What is wrong with the last of them, or with the rules, is said before hours go into the
+    // first.
+    if (!a.protocol.empty()) read_protocol(a.protocol);
+    for (const std::string& input : a.recordings) open_recording(input);
     for (const std::string& input : a.recordings) {
         const Recording recording = open_recording(input);
         Observation observation = observe(recording, options, session.progress());

@@ -68,6 +68,13 @@ bad 2 "horizons" "${two[@]}" --horizons soon
 bad 2 "scene" "${two[@]}" --scene teapot
 bad 2 "samples" "${two[@]}" --samples 9
 bad 3 "nowhere\.mkv" "${two[0]}" "$scratch/nowhere.mkv"
+# Said before the first recording is observed, which takes long.
+for late in "$scratch/nowhere.mkv" "${two[1]} --protocol ${two[0]}" "${two[1]} --ppd nan"; do
+  # shellcheck disable=SC2086
+  ! "$verdigris" judge-materials "${two[0]}" $late "${few[@]}" -o "$scratch/bad" >"$scratch/stdout" 2>/dev/null ||
+    fail "accepted: $late"
+  ! grep -q "^observed" "$scratch/stdout" || fail "told too late: $late"
+done
 bad 4 "leaves no window to judge" "${two[@]}" --horizons 5 --tau 1
 expect 4 "thesis\.tex.*--force" "$verdigris" judge-materials "${two[@]}" -o "$scratch/mine"
 [ "$(ls "$scratch/mine")" = thesis.tex ] || fail "wrote into a foreign folder"
