@@ -59,8 +59,9 @@ ReportSection copper_section(const Reproduced& r) {
                                      signed_percent(f.gain->value) + "; " + how_sure(*f.gain) +
                                      ".");
     }
-    const auto sweep =
-        ours_or_reason(r, "copper-characterize", read_ours_characterization, problems);
+    const auto sweep = ours_or_reason(
+        r, "copper-characterize",
+        [](const auto& folder) { return read_ours_characterization(folder, 1); }, problems);
     Table settings;
     settings.id = "copper-settings";
     settings.title = "Table 2's axes on the real recording";

@@ -71,6 +71,15 @@ auto from_json(const fs::path& file, const Use& use) {
     }
 }
 
+/// Which of two is there alone cannot be told, and a number in the wrong place is worse than none.
+void check_directions(const fs::path& file, std::size_t there, std::size_t wanted) {
+    if (there == wanted) return;
+    throw Error(ErrorCode::bad_input,
+                "has " + std::to_string(there) + " of the " + std::to_string(wanted) +
+                    " directions; its own report says why",
+                file.string());
+}
+
 OursDirection direction(const Json& d) {
     OursDirection out{d.at("label"), d.at("windows"), {}};
     for (const auto& [name, s] : d.at("forecasters").items()) {
@@ -121,9 +130,11 @@ OursDirection read_ours_single(const fs::path& folder) {
                      [](const Json& json) { return direction(json.at("directions").at(0)); });
 }
 
-OursCharacterization read_ours_characterization(const fs::path& folder) {
-    return from_json(folder / "characterization.json", [](const Json& json) {
+OursCharacterization read_ours_characterization(const fs::path& folder, std::size_t directions) {
+    const fs::path file = folder / "characterization.json";
+    return from_json(file, [&](const Json& json) {
         std::vector<std::string> labels = json.at("directions").get<std::vector<std::string>>();
+        check_directions(file, labels.size(), directions);
         std::ranges::reverse(labels);
         OursCharacterization out;
         for (const Json& row : json.at("rows")) {
@@ -199,8 +210,10 @@ OursSusceptibility read_ours_susceptibility(const fs::path& folder) {
 }
 
 OursMaterials read_ours_materials(const fs::path& folder) {
-    return from_json(folder / "materials.json", [](const Json& json) {
+    const fs::path file = folder / "materials.json";
+    return from_json(file, [&](const Json& json) {
         OursMaterials out;
+        check_directions(file, json.at("directions").size(), 2);
         out.control = json.at("control");
         if (json.contains("lpips_unavailable") && json.at("lpips_unavailable").is_string())
             out.no_lpips = json.at("lpips_unavailable");

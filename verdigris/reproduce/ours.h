@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -92,7 +93,9 @@ struct OursSeries {
 OursEvaluation read_ours_evaluation(const std::filesystem::path& folder);
 /// Of one recording by itself.
 OursDirection read_ours_single(const std::filesystem::path& folder);
-OursCharacterization read_ours_characterization(const std::filesystem::path& folder);
+/// Of two recordings, or (`directions` 1) of one by itself.
+OursCharacterization read_ours_characterization(const std::filesystem::path& folder,
+                                                std::size_t directions);
 /// By recording, in the order given.
 std::vector<OursDrift> read_ours_drift(const std::filesystem::path& folder);
 /// The series that `drift` writes beside its tables, in the same order.

@@ -46,8 +46,10 @@ std::string Reproduced::made_by(const std::string& id) const {
 std::string Reproduced::recording(int which) const {
     std::filesystem::path path = reproduced_recording(options, which);
     if (!path.has_filename()) path = path.parent_path();
-    return std::filesystem::is_directory(folder / path) ? path.filename().string()
-                                                        : path.stem().string();
+    const std::string name = std::filesystem::is_directory(folder / path) ? path.filename().string()
+                                                                          : path.stem().string();
+    // As the commands call the second of one name.
+    return which == 1 && name == recording(0) ? name + " (2)" : name;
 }
 
 std::string Reproduced::direction(int which) const {

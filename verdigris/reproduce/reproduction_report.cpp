@@ -63,6 +63,28 @@ ReportSection summary(const Reproduced& r) {
     return section;
 }
 
+/// An audit that was not made found nothing because it did not look.
+std::string audit_sentence(const Reproduced& r) {
+    std::size_t made = 0, clean = 0, other = 0;
+    for (std::size_t i = 0; i < r.outcomes.size(); ++i) {
+        if (r.graph.tasks()[i].kind != "audit") continue;
+        const bool failed = r.outcomes[i].state == TaskState::failed;
+        const bool done = r.has(r.graph.tasks()[i].id);
+        made += done || failed;
+        clean += done;
+        other += !done && !failed;
+    }
+    std::string text = fmt::format(
+        "{} of {} audits that were made found nothing: no leak, and errors, gains and intervals "
+        "follow from the windows they are made of.",
+        clean, made);
+    if (made == 0) text = "No audit was made.";
+    if (other > 0 && made > 0)
+        text += fmt::format(" {} more {} not made: what {} look at is not there.", other,
+                            other == 1 ? "was" : "were", other == 1 ? "it would" : "they would");
+    return text;
+}
+
 }  // namespace
 
 Table task_table(const Reproduced& r) {
@@ -102,15 +124,7 @@ Report reproduction_report(const Reproduced& r) {
                        figures12_section(r), table2_section(r),   table3_section(r),
                        copper_section(r)};
     ReportSection how{"section-tasks", "How it was made", {}};
-    std::vector<std::string> audited, not_clean;
-    for (std::size_t i = 0; i < r.outcomes.size(); ++i) {
-        if (r.graph.tasks()[i].kind != "audit") continue;
-        (r.has(r.graph.tasks()[i].id) ? audited : not_clean).push_back(r.graph.tasks()[i].title);
-    }
-    how.blocks.push_back(Paragraph{fmt::format(
-        "{} of {} audits found nothing: no leak, and errors, gains and intervals follow from the "
-        "windows they are made of.",
-        audited.size(), audited.size() + not_clean.size())});
+    how.blocks.push_back(Paragraph{audit_sentence(r)});
     how.blocks.push_back(task_table(r));
     report.sections.push_back(std::move(how));
     return report;

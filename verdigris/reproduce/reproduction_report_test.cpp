@@ -51,6 +51,21 @@ TEST_F(ReproductionReport, StandsWithThePapersValuesWhereAllOfOursFailed) {
     EXPECT_NE(plain.find("n/a"), std::string::npos);
 }
 
+TEST_F(ReproductionReport, CountsOnlyAuditsThatWereMade) {
+    options_.no_networks = "no libtorch";
+    const TaskGraph graph(reproduction_tasks(options_));
+    std::vector<TaskOutcome> outcomes(graph.tasks().size());
+    for (std::size_t i = 0; i < outcomes.size(); ++i) {
+        const std::string& missing = graph.tasks()[i].missing;
+        outcomes[i].state = missing.empty() ? TaskState::done : TaskState::missing;
+        outcomes[i].sentence = missing;
+    }
+    const std::string page =
+        page_html(reproduction_report({options_, folder_.path(), graph, outcomes}), {});
+    EXPECT_NE(page.find("1 of 1 audits that were made found nothing"), std::string::npos);
+    EXPECT_NE(page.find("4 more were not made"), std::string::npos);
+}
+
 TEST_F(ReproductionReport, SaysWhichFileIsDamaged) {
     done_ = true;
     write_file(folder_ / "evaluate/evaluation.json", "{\"directions\": 3}");
@@ -136,8 +151,30 @@ TEST_F(ReproductionReport, ReadsMaterialsAndSaysWhyThereIsNoLpips) {
               std::string::npos);
     // A version of the command that writes something else is told, not guessed at.
     write_file(folder_ / "materials/materials.json", "{\"directions\": []}");
+    EXPECT_NE(page_html(report(), {}).find("materials.json: has 0 of the 2 directions"),
+              std::string::npos);
+    write_file(folder_ / "materials/materials.json", "{\"directions\": [7, 8]}");
     EXPECT_NE(page_html(report(), {}).find("materials.json: is not what this version writes"),
               std::string::npos);
+}
+
+TEST_F(ReproductionReport, OneDirectionOfACharacterizationIsNotTakenForBoth) {
+    done_ = true;
+    write_file(folder_ / "characterize/characterization.json",
+               R"({"directions": ["air -> chamber"], "rows": [{"axis": "context", "setting": )"
+               R"("n = 3", "context": 3, "directions": {"air -> chamber": {"error": 1, )"
+               R"("persistence": 2, "gain": 0.5, "interval": null, "blocks": []}}}], )"
+               R"("long_horizons": {"air -> chamber": {"moved": [1], "outside": [1], )"
+               R"("persistence": [1], "unclamped": [1]}}})");
+    const Report r = report();
+    EXPECT_NE(page_html(r, {}).find("characterization.json: has 1 of the 2 directions"),
+              std::string::npos);
+    EXPECT_EQ(table_of(r, "table2").groups[0].rows[0][2].kind(), TableCell::Kind::missing);
+}
+
+TEST_F(ReproductionReport, TellsApartRecordingsOfOneName) {
+    options_.recordings = {"/one/plate.mkv", "/two/plate.mp4"};
+    EXPECT_EQ(table_of(report(), "figure5").columns[3].header, "ours, learned from plate (2)");
 }
 
 TEST_F(ReproductionReport, DrawsTheColorsThatDriftMeasured) {

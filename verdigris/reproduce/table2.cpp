@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "verdigris/error.h"
@@ -132,6 +133,10 @@ BulletList settings_sentences(const OursCharacterization& ours) {
     return list;
 }
 
+OursCharacterization read_both(const std::filesystem::path& folder) {
+    return read_ours_characterization(folder, 2);
+}
+
 double at(const std::vector<double>& values, std::size_t horizon) {
     return horizon >= 1 && horizon <= values.size() ? values[horizon - 1] : std::nan("");
 }
@@ -141,7 +146,7 @@ double at(const std::vector<double>& values, std::size_t horizon) {
 ReportSection table2_section(const Reproduced& r) {
     ReportSection section{"section-table2", "Table 2: characterizing the closed form", {}};
     std::vector<std::string> problems;
-    const auto ours = ours_or_reason(r, "characterize", read_ours_characterization, problems);
+    const auto ours = ours_or_reason(r, "characterize", read_both, problems);
     if (ours) section.blocks.push_back(settings_sentences(*ours));
     add_problems(problems, section);
     section.blocks.push_back(settings_table(r, ours ? &*ours : nullptr));
@@ -152,7 +157,7 @@ ReportSection table2_section(const Reproduced& r) {
 ReportSection figures12_section(const Reproduced& r) {
     ReportSection section{"section-figures12", "Figures 1 and 2: how far the specimens move", {}};
     std::vector<std::string> problems;
-    const auto ours = ours_or_reason(r, "characterize", read_ours_characterization, problems);
+    const auto ours = ours_or_reason(r, "characterize", read_both, problems);
     constexpr NumberFormat kShare{NumberStyle::percent, 1, false};
     Table table;
     table.id = "figures12";
