@@ -6,6 +6,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "json_of.h"
+#include "verdigris/forecast/capture_advice.h"
 
 namespace verdigris::cli {
 namespace {
@@ -19,7 +20,9 @@ void run(Session& session, const Arguments& a) {
     options.assume_matrix = a.assume_matrix;
     options.assume_range = a.assume_range;
     const Recording recording = open_recording(a.input, options);
-    const Inspection i = inspect(recording, session.progress());
+    RecentUnits recent;
+    const Inspection i = inspect(recording, session.progress(), &recent);
+    const CaptureAdvice advice = capture_advice(recent);
     const RecordingInfo& info = recording.info();
     const auto line = [&](const char* name, const std::string& text) {
         session.say(fmt::format("{:<11}{}", name, text));
@@ -52,7 +55,9 @@ void run(Session& session, const Arguments& a) {
         if (!told) session.tell(s);
     }
     line("verdict", as_sentence(i.verdict_sentence));
-    session.result({{"recording", json_of(info)}, {"inspection", json_of(i)}});
+    line("advice", as_sentence(advice.sentence));
+    session.result(
+        {{"recording", json_of(info)}, {"inspection", json_of(i)}, {"advice", json_of(advice)}});
 }
 
 }  // namespace

@@ -153,8 +153,8 @@ std::string evidence(const Context& context, BandMethod& method) {
 }  // namespace
 
 Forecaster band_trend(const BandTrendOptions& options) {
-    return {"bandtrend",
-            [options, method = std::make_shared<BandMethod>(options.design)](const Context& context) {
+    return {"bandtrend", [options, method = std::make_shared<BandMethod>(options.design)](
+                             const Context& context) {
                 check_context(context);
                 const bool long_one = context.length() > kLongestContext;
                 const Context recent =

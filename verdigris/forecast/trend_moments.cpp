@@ -71,8 +71,7 @@ DriftMoments drift_moments(const TrendKind& kind, int q, double doubt) {
     }
     const VectorXd doubted = 1 - (-(units_ahead() / kTrusted).array().cube()).exp();
     const VectorXd drifting = variance_ahead(kind.bending, kind.rho, kind.kappa + doubt);
-    out.ahead =
-        drifting + doubted.cwiseProduct(variance_ahead(kind.bending, kind.rho, kind.kappa));
+    out.ahead = drifting + doubted.cwiseProduct(variance_ahead(kind.bending, kind.rho, kind.kappa));
     return out;
 }
 
@@ -83,8 +82,8 @@ TrendMoments with_noise(const DriftMoments& drift, double eta) {
     m.with_future.col(q - 1).array() -= eta;  // the last frame's noise goes away again
     m.covariance =
         drift.drift + eta * noise_of_increments(int(q)) + kFloor * MatrixXd::Identity(q, q);
-    m.future = drift.ahead + VectorXd::Constant(drift.ahead.size(), 2 * eta) +
-               kFloor * units_ahead();
+    m.future =
+        drift.ahead + VectorXd::Constant(drift.ahead.size(), 2 * eta) + kFloor * units_ahead();
     return m;
 }
 
@@ -96,7 +95,8 @@ TrendMoments walk_moments(int q) {
 TrendMoments level_moments(int q, double eta) {
     const auto units = Eigen::Index(kTrendUnits.size());
     TrendMoments m{eta * noise_of_increments(q) + 10 * kFloor * MatrixXd::Identity(q, q),
-                   MatrixXd::Zero(units, q), {}};
+                   MatrixXd::Zero(units, q),
+                   {}};
     m.with_future.col(q - 1).setConstant(-eta);
     m.future = VectorXd::Constant(units, 2 * eta) + 10 * kFloor * units_ahead();
     return m;

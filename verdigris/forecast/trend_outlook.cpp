@@ -36,8 +36,16 @@ double error_of(const TrendKind& kind, double doubt, const Circumstances& c) {
 double expected_error(const Trend& trend, double doubt, const Circumstances& circumstances) {
     double sum = 0, weight = 0;
     for (const LikelyKind& likely : trend.likely) {
-        sum += likely.probability * likely.variance *
-               error_of(likely.kind, doubt, circumstances);
+        sum += likely.probability * likely.variance * error_of(likely.kind, doubt, circumstances);
+        weight += likely.probability;
+    }
+    return weight > 0 ? sum / weight : 0;
+}
+
+double frame_noise(const Trend& trend) {
+    double sum = 0, weight = 0;
+    for (const LikelyKind& likely : trend.likely) {
+        sum += likely.probability * likely.variance * likely.kind.eta;
         weight += likely.probability;
     }
     return weight > 0 ? sum / weight : 0;

@@ -21,4 +21,7 @@ struct Circumstances {
 /// and known. What the models disagree about is not in it, nor steps and outliers.
 double expected_error(const Trend& trend, double doubt, const Circumstances& circumstances);
 
+/// Variance of the noise of one frame, as the likely models have it, in the same unit.
+double frame_noise(const Trend& trend);
+
 }  // namespace verdigris

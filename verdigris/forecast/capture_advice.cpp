@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/capture_advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "verdigris/forecast/backdrop_light.h"
+#include "verdigris/forecast/band_method.h"
+#include "verdigris/forecast/band_spread.h"
+#include "verdigris/forecast/context_pixels.h"
+#include "verdigris/forecast/trend_outlook.h"
+
+namespace verdigris {
+namespace {
+
+constexpr int kFewest = 5;                    // the least that a forecast wants
+constexpr double kInvisible = 0.5 / 255;      // chosen: half an 8-bit step
+constexpr double kLonger = 3;                 // chosen: four times as long is as far as is looked
+constexpr double kMostly = 0.5, kMuch = 0.3;  // chosen: shares worth a sentence
+// More units: coarse, because that is how well it is known (docs/RESULTS.md, capture advice).
+constexpr std::array kMore{5., 7., 10., 15., 20., 30., 50., 70., 100., 150., 200., 300.};
+
+/// One component as the forecaster finds it.
+struct Part {
+    const Component* component;
+    double noise = 0;   ///< of the frame to come: of light that is jitter, and an error like others
+    double unsure = 0;  ///< of its error, what its likely models do not say of themselves
+};
+
+class Outlook {
+  public:
+    Outlook(const Components& components, int increments, double doubt)
+        : increments_(increments), doubt_(doubt) {
+        for (const Component& c : components.all) {
+            const double told = (c.trend.error + withheld(c)).head(kOutlookUnits).mean();
+            Part part{&c, frame_noise(c.trend), 0};
+            const double known = expected_error(c.trend, doubt, {increments, 0, 1});
+            part.unsure = std::max(0.0, told - part.noise - known);
+            parts_.push_back(part);
+        }
+    }
+    /// Mean square error of `light`, or of all else. What is not sure yet becomes so with the
+    /// number of increments, as the variance of a mean does.
+    double error(bool light, const Circumstances& c) const {
+        double sum = 0;
+        for (const Part& p : parts_) {
+            if (p.component->light != light) continue;
+            const double unsure = p.unsure * increments_ / c.increments;
+            // A lamp does not slow down as copper does, and jitters however often it is looked at.
+            const Circumstances here{c.increments, 0, light ? 1 : c.noise};
+            const double known = expected_error(p.component->trend, doubt_, here);
+            if (light) {
+                sum += known + p.noise + unsure;
+                continue;
+            }
+            const double later = expected_error(p.component->trend, doubt_, c);
+            sum += later + unsure * (known > 0 ? later / known : 1);
+        }
+        return sum;
+    }
+    double error(const Circumstances& c) const { return error(true, c) + error(false, c); }
+
+  private:
+    std::vector<Part> parts_;
+    int increments_;
+    double doubt_;
+};
+
+std::string count(double n, const char* what) {
+    return fmt::format("{:.0f} {}{}", n, what, std::lround(n) == 1 ? "" : "s");
+}
+
+/// Two digits at most: more would be a lie.
+double coarse(double n) {
+    if (n < 10) return std::max(1.0, std::round(n));
+    const double step = std::pow(10, std::floor(std::log10(n)) - 1);
+    return std::round(n / step) * step;
+}
+
+std::string time_text(double seconds) {
+    if (seconds < 90) return count(coarse(seconds), "second");
+    if (seconds < 90 * 60) return count(coarse(seconds / 60), "minute");
+    return count(coarse(seconds / 3600), "hour");
+}
+
+std::string how_long(const CaptureOutlook& o, const RecentUnits& recent) {
+    const std::string time =
+        recent.seconds_per_unit > 0
+            ? fmt::format(", {} at the present pace", time_text(o.units * recent.seconds_per_unit))
+            : "";
+    return fmt::format("{} ({}{})", count(coarse(o.frames), "more frame"), count(o.units, "unit"),
+                       time);
+}
+
+/// "1.2 % of full scale"
+std::string percent(double error) {
+    return fmt::format("{:.2g} % of full scale", 100 * error);
+}
+
+void say(const RecentUnits& recent, CaptureAdvice& out) {
+    const std::string expected = fmt::format(
+        "over the next ten units the forecast is expected to be off by {}", percent(out.error));
+    if (out.error < kInvisible) {
+        out.id = "enough";
+        out.sentence = expected + ", which nobody sees: for these ten it need not go on";
+        return;
+    }
+    if (out.halved) {
+        out.id = "record_on";
+        out.sentence = fmt::format(
+            "{}; {} would roughly halve that for the ten units that then "
+            "follow",
+            expected, how_long(*out.halved, recent));
+    } else {
+        const double left = out.outlooks.back().error / out.error;
+        out.sentence = fmt::format("{}, and recording on will not halve that: ", expected);
+        if (out.light_share >= kMostly) {
+            out.id = "light";
+            out.sentence +=
+                fmt::format("{:.0f} % of its square is the light", 100 * out.light_share);
+        } else if (out.noise_share >= kMostly) {
+            out.id = "noise";
+            out.sentence += "most of it is the noise of the frames";
+        } else {
+            out.id = "unforeseen";
+            out.sentence +=
+                fmt::format("{:.0f} % of its square is change that no past frame foretells",
+                            100 * std::min(left * left, 1.0));
+        }
+    }
+    if (out.light_share >= kMuch)
+        out.sentence += out.backdrop ? "; a steady lamp and locked exposure would lower it"
+                                     : "; show more of the backdrop, so that light can be told "
+                                       "from copper";
+    if (out.noise_share >= kMuch)
+        out.sentence +=
+            fmt::format("; four times as many photographs per unit would lower it by {:.0f} %",
+                        100 * (1 - std::sqrt(1 - out.noise_share)));
+}
+
+}  // namespace
+
+CaptureAdvice capture_advice(const RecentUnits& recent) {
+    CaptureAdvice out;
+    if (recent.still) {
+        out.id = "still";
+        out.sentence =
+            "nothing changes by more than the noise: what is to be forecast has not "
+            "begun, so record on until it is seen to";
+        return out;
+    }
+    if (int(recent.frames.size()) < kFewest) {
+        out.id = "too_few";
+        out.sentence = fmt::format(
+            "too little is recorded to say what more would be worth; record "
+            "at least {} frames, better a hundred",
+            2 * kFewest);
+        return out;
+    }
+    Context context;
+    for (const Image<SrgbF>& frame : recent.frames) context.frames.push_back(frame.clone());
+    context.specimen = recent.specimen.clone();
+    BandMethod method;
+    const Mask moving = specimen_of(context);
+    const Components components =
+        count_inside(moving) < 16 ? Components() : held_components(context, moving, method);
+    if (components.all.empty()) {
+        out.id = "still";
+        out.sentence =
+            "the last frames are all the same: there is nothing to learn from them yet, "
+            "so record on until something changes";
+        return out;
+    }
+    const int seen = context.length() - 1;
+    // A forecast may look further back than was looked here.
+    const auto increments_at = [&](double more) {
+        return std::max(seen, std::min(int(recent.units + more), kLongestContext) - 1);
+    };
+    const Outlook outlook(components, seen, method.design.prior.doubt);
+    // One frame was looked at where a forecast averages several.
+    const double noise = 1 / recent.frames_per_sample;
+    const auto error_at = [&](double more, double less_noise) {
+        return outlook.error({increments_at(more), more, noise * less_noise});
+    };
+    const double now = error_at(0, 1);
+    out.error = std::sqrt(now);
+    out.backdrop = shows_light(context);
+    if (now > 0) {
+        out.noise_share = std::clamp(1 - error_at(0, 0.25) / now, 0.0, 1.0);
+        out.light_share = outlook.error(true, {increments_at(0), 0, noise}) / now;
+    }
+    for (const double more : kMore) {
+        if (more > std::max(kLonger * recent.units, kMore.front())) break;
+        out.outlooks.push_back({more, more * recent.frames_per_unit, std::sqrt(error_at(more, 1))});
+        if (!out.halved && out.outlooks.back().error <= out.error / 2)
+            out.halved = out.outlooks.back();
+    }
+    say(recent, out);
+    return out;
+}
+
+}  // namespace verdigris
