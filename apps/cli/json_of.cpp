@@ -67,22 +67,6 @@ Json json_of(const Inspection& i) {
             {"findings", json_of(i.findings)}};
 }
 
-Json json_of(const CaptureAdvice& a) {
-    const auto outlook = [](const CaptureOutlook& o) -> Json {
-        return {{"more_units", o.units}, {"more_frames", o.frames}, {"expected_error", o.error}};
-    };
-    Json outlooks = Json::array();
-    for (const CaptureOutlook& o : a.outlooks) outlooks.push_back(outlook(o));
-    return {{"id", a.id},
-            {"sentence", a.sentence},
-            {"expected_error", a.outlooks.empty() ? Json(nullptr) : Json(a.error)},
-            {"noise_share", a.noise_share},
-            {"light_share", a.light_share},
-            {"backdrop", a.backdrop},
-            {"halved", a.halved ? outlook(*a.halved) : Json(nullptr)},
-            {"outlooks", outlooks}};
-}
-
 Json json_of(const Observation& o) {
     Json lost = nullptr;
     if (o.decode.lost > 0) {

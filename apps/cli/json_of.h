@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "arguments.h"
-#include "verdigris/forecast/capture_advice.h"
 #include "verdigris/forecast/choose.h"
 #include "verdigris/forecast/forecast.h"
 #include "verdigris/observe/inspect.h"
@@ -21,7 +20,6 @@ Json json_of(const Statuses& statuses);
 Json json_of(Rect rect);
 Json json_of(const RecordingInfo& info);
 Json json_of(const Inspection& inspection);
-Json json_of(const CaptureAdvice& advice);
 /// Input, axis, crop, noise and what was lost; no pixels.
 Json json_of(const Observation& observation);
 /// Forecaster, explanation, guards; no pixels.

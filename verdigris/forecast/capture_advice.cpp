@@ -23,48 +23,49 @@ constexpr double kMostly = 0.5, kMuch = 0.3;  // chosen: shares worth a sentence
 // More units: coarse, because that is how well it is known (docs/RESULTS.md, capture advice).
 constexpr std::array kMore{5., 7., 10., 15., 20., 30., 50., 70., 100., 150., 200., 300.};
 
-/// One component as the forecaster finds it.
-struct Part {
-    const Component* component;
-    double noise = 0;   ///< of the frame to come: of light that is jitter, and an error like others
-    double unsure = 0;  ///< of its error, what its likely models do not say of themselves
-};
-
+/// What the forecaster expects to be off by, component by component.
 class Outlook {
   public:
     Outlook(const Components& components, int increments, double doubt)
         : increments_(increments), doubt_(doubt) {
         for (const Component& c : components.all) {
             const double told = (c.trend.error + withheld(c)).head(kOutlookUnits).mean();
-            Part part{&c, frame_noise(c.trend), 0};
-            const double known = expected_error(c.trend, doubt, {increments, 0, 1});
-            part.unsure = std::max(0.0, told - part.noise - known);
-            parts_.push_back(part);
-        }
-    }
-    /// Mean square error of `light`, or of all else. What is not sure yet becomes so with the
-    /// number of increments, as the variance of a mean does.
-    double error(bool light, const Circumstances& c) const {
-        double sum = 0;
-        for (const Part& p : parts_) {
-            if (p.component->light != light) continue;
-            const double unsure = p.unsure * increments_ / c.increments;
-            // A lamp does not slow down as copper does, and jitters however often it is looked at.
-            const Circumstances here{c.increments, 0, light ? 1 : c.noise};
-            const double known = expected_error(p.component->trend, doubt_, here);
-            if (light) {
-                sum += known + p.noise + unsure;
+            if (c.light) {
+                light_ += told;
                 continue;
             }
-            const double later = expected_error(p.component->trend, doubt_, c);
-            sum += later + unsure * (known > 0 ? later / known : 1);
+            const double known = expected_error(c.trend, doubt, {increments, 0, 1});
+            parts_.push_back({&c.trend, std::max(0.0, told - frame_noise(c.trend) - known)});
+        }
+    }
+    /// Mean squares. Of light: how it goes on is not known better for having been watched longer;
+    /// in trials that was closer than any fall of it (docs/RESULTS.md, capture advice).
+    double light() const { return light_; }
+    /// Of all else, where nothing of it was for want of frames or for their noise.
+    double unforeseen() const { return known({kLongestContext - 1, 0, 0}); }
+    /// Of everything. What is not sure yet becomes so as the variance of a mean does.
+    double error(const Circumstances& c) const {
+        double sum = light_;
+        for (const Part& p : parts_) {
+            const double now = expected_error(*p.trend, doubt_, {c.increments, 0, c.noise});
+            const double then = expected_error(*p.trend, doubt_, c);
+            sum += then + p.unsure * (now > 0 ? then / now : 1) * increments_ / c.increments;
         }
         return sum;
     }
-    double error(const Circumstances& c) const { return error(true, c) + error(false, c); }
 
   private:
+    struct Part {
+        const Trend* trend;
+        double unsure;  ///< of its error, what its likely models do not say of themselves
+    };
+    double known(const Circumstances& c) const {
+        double sum = 0;
+        for (const Part& p : parts_) sum += expected_error(*p.trend, doubt_, c);
+        return sum;
+    }
     std::vector<Part> parts_;
+    double light_ = 0;
     int increments_;
     double doubt_;
 };
@@ -95,50 +96,51 @@ std::string how_long(const CaptureOutlook& o, const RecentUnits& recent) {
                        time);
 }
 
-/// "1.2 % of full scale"
-std::string percent(double error) {
-    return fmt::format("{:.2g} % of full scale", 100 * error);
+std::string levers(const CaptureAdvice& a) {
+    std::string out;
+    if (a.light_share >= kMuch)
+        out += a.backdrop ? "; a steadier lamp and locked exposure would lower it"
+                          : "; show more of the backdrop, so that light can be told from copper";
+    if (a.noise_share >= kMuch)
+        out += fmt::format("; four times as many photographs per unit would lower it by {:.0f} %",
+                           100 * (1 - std::sqrt(1 - a.noise_share)));
+    return out;
 }
 
-void say(const RecentUnits& recent, CaptureAdvice& out) {
+void say(const RecentUnits& recent, CaptureAdvice& a) {
     const std::string expected = fmt::format(
-        "over the next ten units the forecast is expected to be off by {}", percent(out.error));
-    if (out.error < kInvisible) {
-        out.id = "enough";
-        out.sentence = expected + ", which nobody sees: for these ten it need not go on";
+        "over the next ten units the forecast may be off by about {:.2g} % of full scale",
+        100 * a.error);
+    if (a.error < kInvisible) {
+        a.id = "enough";
+        a.sentence = expected + ", which nobody sees: for these ten, enough is recorded";
         return;
     }
-    if (out.halved) {
-        out.id = "record_on";
-        out.sentence = fmt::format(
-            "{}; {} would roughly halve that for the ten units that then "
-            "follow",
-            expected, how_long(*out.halved, recent));
+    if (a.halved) {
+        a.id = "record_on";
+        a.sentence =
+            fmt::format("{}; roughly {} would halve that for the ten units that follow then",
+                        expected, how_long(*a.halved, recent));
     } else {
-        const double left = out.outlooks.back().error / out.error;
-        out.sentence = fmt::format("{}, and recording on will not halve that: ", expected);
-        if (out.light_share >= kMostly) {
-            out.id = "light";
-            out.sentence +=
-                fmt::format("{:.0f} % of its square is the light", 100 * out.light_share);
-        } else if (out.noise_share >= kMostly) {
-            out.id = "noise";
-            out.sentence += "most of it is the noise of the frames";
+        const CaptureOutlook& far = a.outlooks.back();
+        a.sentence = fmt::format(
+            "{}; recording on is not expected to halve that: {} would leave about {:.0f} % of it, "
+            "as ",
+            expected, how_long(far, recent), std::round(10 * far.error / a.error) * 10);
+        if (a.light_share >= kMostly) {
+            a.id = "light";
+            a.sentence += "most of it is the light";
+        } else if (a.noise_share >= kMostly) {
+            a.id = "noise";
+            a.sentence += "most of it is the noise of the frames";
         } else {
-            out.id = "unforeseen";
-            out.sentence +=
-                fmt::format("{:.0f} % of its square is change that no past frame foretells",
-                            100 * std::min(left * left, 1.0));
+            a.id = "unforeseen";
+            a.sentence += a.unforeseen_share >= kMostly
+                              ? "most of it is change that no past frame foretells"
+                              : "nothing that more frames would tell is most of it";
         }
     }
-    if (out.light_share >= kMuch)
-        out.sentence += out.backdrop ? "; a steady lamp and locked exposure would lower it"
-                                     : "; show more of the backdrop, so that light can be told "
-                                       "from copper";
-    if (out.noise_share >= kMuch)
-        out.sentence +=
-            fmt::format("; four times as many photographs per unit would lower it by {:.0f} %",
-                        100 * (1 - std::sqrt(1 - out.noise_share)));
+    a.sentence += levers(a);
 }
 
 }  // namespace
@@ -190,7 +192,8 @@ CaptureAdvice capture_advice(const RecentUnits& recent) {
     out.backdrop = shows_light(context);
     if (now > 0) {
         out.noise_share = std::clamp(1 - error_at(0, 0.25) / now, 0.0, 1.0);
-        out.light_share = outlook.error(true, {increments_at(0), 0, noise}) / now;
+        out.light_share = outlook.light() / now;
+        out.unforeseen_share = std::min(outlook.unforeseen() / now, 1.0);
     }
     for (const double more : kMore) {
         if (more > std::max(kLonger * recent.units, kMore.front())) break;

@@ -25,9 +25,9 @@ struct CaptureAdvice {
     std::string sentence;
     /// Now: as CaptureOutlook::error. 0 where `id` is "too_few" or "still".
     double error = 0;
-    /// Of its square, 0 to 1: what four times as many photographs per unit would take away, and
-    /// what the light does. The rest is change.
-    double noise_share = 0, light_share = 0;
+    /// Of its square, 0 to 1: what four times as many photographs per unit would take away, what
+    /// the light does, and change that would be unforeseen if all else was known.
+    double noise_share = 0, light_share = 0, unforeseen_share = 0;
     bool backdrop = false;                 ///< enough of it is in view to see the light on
     std::optional<CaptureOutlook> halved;  ///< the first that is at most half; in coarse steps
     std::vector<CaptureOutlook> outlooks;  ///< farther and farther, never worse

@@ -228,9 +228,7 @@ RecentUnits whatever_is_recent(const Recording& recording, const Look& look,
     }
 }
 
-}  // namespace
-
-Inspection inspect(const Recording& recording, const Progress& progress, RecentUnits* recent) {
+Inspection inspected(const Recording& recording, const Progress& progress, RecentUnits* recent) {
     const RecordingInfo& info = recording.info();
     if (std::min(info.width, info.height) < 2) {
         throw Error(ErrorCode::bad_input,
@@ -290,6 +288,17 @@ Inspection inspect(const Recording& recording, const Progress& progress, RecentU
     if (recent != nullptr)
         *recent = whatever_is_recent(recording, look, finding, out.crop, axis, progress);
     return out;
+}
+
+}  // namespace
+
+Inspection inspect(const Recording& recording, const Progress& progress) {
+    return inspected(recording, progress, nullptr);
+}
+
+Inspection inspect(const Recording& recording, RecentUnits& recent, const Progress& progress) {
+    recent = {};
+    return inspected(recording, progress, &recent);
 }
 
 std::string to_string(Verdict verdict) {

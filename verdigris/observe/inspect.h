@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "verdigris/observe/recent_units.h"
 #include "verdigris/pixels/image.h"
 #include "verdigris/progress.h"
 #include "verdigris/recording/recording.h"
@@ -38,10 +37,8 @@ struct Inspection {
 };
 
 /// Throws as observe() does for inputs that cannot be read at all; anything that can be read gets
-/// a verdict instead. `recent`, if given, is filled with what the end of it shows, as far as it
-/// decodes; of long videos that is about as many frames to decode again.
-Inspection inspect(const Recording& recording, const Progress& progress = {},
-                   RecentUnits* recent = nullptr);
+/// a verdict instead.
+Inspection inspect(const Recording& recording, const Progress& progress = {});
 
 std::string to_string(Verdict verdict);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "verdigris/color/pixel_types.h"
+#include "verdigris/observe/inspect.h"
 #include "verdigris/pixels/image.h"
 
 namespace verdigris {
@@ -25,5 +26,9 @@ struct RecentUnits {
     double frames_per_sample = 1;  ///< how many a forecast averages where here is one
     bool still = false;            ///< nothing in the frame changes more than the noise
 };
+
+/// inspect(), and what the end of the recording shows, as far as it decodes. Of long videos about
+/// as many frames are decoded again.
+Inspection inspect(const Recording& recording, RecentUnits& recent, const Progress& progress = {});
 
 }  // namespace verdigris
