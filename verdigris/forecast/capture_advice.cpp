@@ -19,6 +19,7 @@ namespace {
 constexpr int kFewest = 5;                    // the least that a forecast wants
 constexpr double kInvisible = 0.5 / 255;      // chosen: half an 8-bit step
 constexpr double kLonger = 3;                 // chosen: four times as long is as far as is looked
+constexpr double kHardly = 0.8;               // chosen: less is not worth waiting for
 constexpr double kMostly = 0.5, kMuch = 0.3;  // chosen: shares worth a sentence
 // More units: coarse, because that is how well it is known (docs/RESULTS.md, capture advice).
 constexpr std::array kMore{5., 7., 10., 15., 20., 30., 50., 70., 100., 150., 200., 300.};
@@ -87,13 +88,14 @@ std::string time_text(double seconds) {
     return count(coarse(seconds / 3600), "hour");
 }
 
+/// "about 30 more frames (30 units; 2 minutes by the recording's own clock)"
 std::string how_long(const CaptureOutlook& o, const RecentUnits& recent) {
-    const std::string time =
-        recent.seconds_per_unit > 0
-            ? fmt::format(", {} at the present pace", time_text(o.units * recent.seconds_per_unit))
-            : "";
-    return fmt::format("{} ({}{})", count(coarse(o.frames), "more frame"), count(o.units, "unit"),
-                       time);
+    const std::string time = recent.seconds_per_unit > 0
+                                 ? fmt::format("; {} by the recording's own clock",
+                                               time_text(o.units * recent.seconds_per_unit))
+                                 : "";
+    return fmt::format("roughly {} ({}{})", count(coarse(o.frames), "more frame"),
+                       count(o.units, "unit"), time);
 }
 
 std::string levers(const CaptureAdvice& a) {
@@ -108,36 +110,36 @@ std::string levers(const CaptureAdvice& a) {
 }
 
 void say(const RecentUnits& recent, CaptureAdvice& a) {
-    const std::string expected = fmt::format(
+    a.sentence = fmt::format(
         "over the next ten units the forecast may be off by about {:.2g} % of full scale",
         100 * a.error);
     if (a.error < kInvisible) {
         a.id = "enough";
-        a.sentence = expected + ", which nobody sees: for these ten, enough is recorded";
+        a.sentence += ", which nobody sees: for these ten, enough is recorded";
         return;
     }
     if (a.halved) {
         a.id = "record_on";
-        a.sentence =
-            fmt::format("{}; roughly {} would halve that for the ten units that follow then",
-                        expected, how_long(*a.halved, recent));
+        a.sentence += fmt::format("; {} may halve that for the ten units that follow then",
+                                  how_long(*a.halved, recent));
     } else {
         const CaptureOutlook& far = a.outlooks.back();
-        a.sentence = fmt::format(
-            "{}; recording on is not expected to halve that: {} would leave about {:.0f} % of it, "
-            "as ",
-            expected, how_long(far, recent), std::round(10 * far.error / a.error) * 10);
+        const double left = far.error / a.error;
+        a.sentence += left >= kHardly
+                          ? "; recording on will hardly lower that"
+                          : fmt::format(
+                                "; recording on will not halve that, {} may leave {:.0f} % "
+                                "of it",
+                                how_long(far, recent), 10 * std::round(10 * left));
+        a.id = "unforeseen";
         if (a.light_share >= kMostly) {
             a.id = "light";
-            a.sentence += "most of it is the light";
+            a.sentence += ": most of it is the light";
         } else if (a.noise_share >= kMostly) {
             a.id = "noise";
-            a.sentence += "most of it is the noise of the frames";
-        } else {
-            a.id = "unforeseen";
-            a.sentence += a.unforeseen_share >= kMostly
-                              ? "most of it is change that no past frame foretells"
-                              : "nothing that more frames would tell is most of it";
+            a.sentence += ": most of it is the noise of the frames";
+        } else if (a.unforeseen_share >= kMostly) {
+            a.sentence += ": most of it is change that no past frame foretells";
         }
     }
     a.sentence += levers(a);

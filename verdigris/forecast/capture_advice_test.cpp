@@ -107,7 +107,7 @@ TEST(CaptureAdvice, ChangeThatDiesAwayIsHalvedByWaiting) {
     EXPECT_EQ(a.halved->frames, a.halved->units);
     EXPECT_LE(a.halved->error, a.error / 2);
     EXPECT_TRUE(says(a, "more frames")) << a.sentence;
-    EXPECT_TRUE(says(a, "minutes at the present pace")) << a.sentence;
+    EXPECT_TRUE(says(a, "minutes by the recording's own clock")) << a.sentence;
 }
 
 TEST(CaptureAdvice, FramesAndTimeAreThoseOfTheRecording) {
@@ -118,7 +118,7 @@ TEST(CaptureAdvice, FramesAndTimeAreThoseOfTheRecording) {
     ASSERT_TRUE(one.halved && thirty.halved);
     EXPECT_EQ(thirty.halved->frames, 30 * one.halved->frames);
     recent.seconds_per_unit = 0;
-    EXPECT_FALSE(says(capture_advice(recent), "pace"));
+    EXPECT_FALSE(says(capture_advice(recent), "clock"));
 }
 
 TEST(CaptureAdvice, LightThatJittersIsSaidToBeTheTrouble) {

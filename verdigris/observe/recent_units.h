@@ -15,8 +15,8 @@ namespace verdigris {
 inline constexpr int kRecentSide = 128;
 
 struct RecentUnits {
-    /// Single frames, one unit apart, the last frame's unit last; all of one size. Of the crop
-    /// that --crop auto would choose.
+    /// Single frames, one unit apart, the last frame's unit last, 20 at most; all of one size. Of
+    /// the crop that --crop auto would choose.
     std::vector<Image<SrgbF>> frames;
     Mask specimen;                 ///< of their size
     int frames_recorded = 0;       ///< in all
