@@ -6,6 +6,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "json_of.h"
+#include "verdigris/forecast/capture_advice.h"
 
 namespace verdigris::cli {
 namespace {
@@ -14,12 +15,32 @@ struct Arguments {
     std::string input, assume_matrix, assume_range;
 };
 
+Json json_of(const CaptureOutlook& o) {
+    return {{"more_units", o.units}, {"more_frames", o.frames}, {"expected_error", o.error}};
+}
+
+Json json_of(const CaptureAdvice& a) {
+    Json outlooks = Json::array();
+    for (const CaptureOutlook& o : a.outlooks) outlooks.push_back(json_of(o));
+    return {{"id", a.id},
+            {"sentence", a.sentence},
+            {"expected_error", a.outlooks.empty() ? Json(nullptr) : Json(a.error)},
+            {"noise_share", a.noise_share},
+            {"light_share", a.light_share},
+            {"unforeseen_share", a.unforeseen_share},
+            {"backdrop", a.backdrop},
+            {"halved", a.halved ? json_of(*a.halved) : Json(nullptr)},
+            {"outlooks", outlooks}};
+}
+
 void run(Session& session, const Arguments& a) {
     RecordingOptions options;
     options.assume_matrix = a.assume_matrix;
     options.assume_range = a.assume_range;
     const Recording recording = open_recording(a.input, options);
-    const Inspection i = inspect(recording, session.progress());
+    RecentUnits recent;
+    const Inspection i = inspect(recording, recent, session.progress());
+    const CaptureAdvice advice = capture_advice(recent);
     const RecordingInfo& info = recording.info();
     const auto line = [&](const char* name, const std::string& text) {
         session.say(fmt::format("{:<11}{}", name, text));
@@ -52,7 +73,10 @@ void run(Session& session, const Arguments& a) {
         if (!told) session.tell(s);
     }
     line("verdict", as_sentence(i.verdict_sentence));
-    session.result({{"recording", json_of(info)}, {"inspection", json_of(i)}});
+    line("advice", as_sentence(advice.sentence));
+    session.result({{"recording", cli::json_of(info)},
+                    {"inspection", cli::json_of(i)},
+                    {"advice", json_of(advice)}});
 }
 
 }  // namespace

@@ -8,20 +8,16 @@
 #include "verdigris/forecast/context_pixels.h"
 
 namespace verdigris {
-namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Mean square of what a component still changes after it is held.
 VectorXd withheld(const Component& c) {
     const MatrixXd less = c.trend.weights.rowwise() - c.trend.weights.row(c.held);
     VectorXd out = (less * c.increments).cwiseProduct(less).rowwise().sum();
     out.head(c.held + 1).setZero();
     return out;
 }
-
-}  // namespace
 
 VectorXd expected_advantage(const std::vector<Component>& components,
                             const std::function<bool(const Component&)>& counts) {

@@ -23,4 +23,7 @@ Eigen::VectorXd expected_advantage(const std::vector<Component>& components,
 /// Of a forecast whose components are held where they say.
 Spread spread_of(const Mask& moving, const Components& components);
 
+/// Mean square of what a component would still change after it is held, per kTrendUnits.
+Eigen::VectorXd withheld(const Component& component);
+
 }  // namespace verdigris

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "verdigris/forecast/band_components.h"
+#include "verdigris/forecast/band_method.h"
 #include "verdigris/forecast/band_spread.h"
 #include "verdigris/forecast/context_pixels.h"
 
@@ -18,46 +19,14 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr int kLongestContext = 40;
 // chosen: from a fifth on it changes what a reader makes of the gain.
 constexpr double kMuchOfIt = 0.2, kMostOfIt = 0.9;
-
-/// What may move; the backdrop is held where it is known, whatever else is to be forecast.
-Mask specimen_of(const Context& context) {
-    Mask mask = moving_mask(context);
-    const auto backdrop = context.backdrop.pixels();
-    for (std::size_t i = 0; i < backdrop.size(); ++i)
-        if (backdrop[i] != 0) mask.pixels()[i] = 0;
-    return mask;
-}
 
 Forecast held(const Context& context, std::string why) {
     Forecast f = persistence().forecast(context);
     f.forecaster = "bandtrend";
     f.explanation = std::move(why);
     return f;
-}
-
-/// The last of kTrendUnits until which those that count are confident to beat holding still; the
-/// first at least, because that also takes the last frame's noise back.
-int trusted_until(const std::vector<Component>& components, double confidence,
-                  const std::function<bool(const Component&)>& counts) {
-    const Eigen::VectorXd advantage = expected_advantage(components, counts);
-    int last = -1;
-    while (last + 1 < int(advantage.size()) && advantage[last + 1] >= confidence) ++last;
-    return std::max(last, 0);
-}
-
-/// All is followed while all together is sure enough. Light that jitters is never sure, and what it
-/// leaves may well be: light, and all but it, are each followed as long as they are by themselves.
-void hold(std::vector<Component>& components, double confidence) {
-    const int all = trusted_until(components, confidence, [](const Component&) { return true; });
-    for (const bool light : {true, false}) {
-        const int own = trusted_until(components, confidence,
-                                      [light](const Component& c) { return c.light == light; });
-        for (Component& c : components)
-            if (c.light == light) c.held = std::max(all, own);
-    }
 }
 
 /// All components as one trajectory of two terms, each held from where it is.
@@ -90,45 +59,18 @@ Trajectory joined(const Context& context, const std::vector<Component>& componen
     return t;
 }
 
-Context end_of(const Context& context, int begin, int count) {
-    Context part;
-    for (int i = begin; i < begin + count; ++i)
-        part.frames.push_back(context.frames[std::size_t(i)].clone());
-    if (!context.specimen.empty()) part.specimen = context.specimen.clone();
-    if (!context.clipped.empty()) part.clipped = context.clipped.clone();
-    if (!context.backdrop.empty()) part.backdrop = context.backdrop.clone();
-    part.sigma = context.sigma;
-    part.tau = context.tau;
-    return part;
-}
-
-/// What all forecasts of one forecaster have in common. For several threads at once.
-struct Method {
-    BandTrendDesign design;
-    TrendModelsCache models{design.prior};
-    // Light goes nowhere by itself: what is known of it is where it usually is.
-    TrendModelsCache light_models{[this] {
-        TrendPrior prior = design.prior;
-        prior.drift = false;
-        return prior;
-    }()};
-};
-
-Forecast forecast(const Context& context, bool clamp, Method& method) {
-    TrendModelsCache& models = method.models;
+Forecast forecast(const Context& context, bool clamp, BandMethod& method) {
     const Mask moving = specimen_of(context);
     if (context.length() < 2)
         return held(context, "With 1 frame observed there is no change to carry on: held.");
     if (count_inside(moving) < 16)
         return held(context, "No usable pixel lies on the specimen, so the last state is held.");
-    Components components =
-        components_of(context, moving, method.design, models, method.light_models);
+    const Components components = held_components(context, moving, method);
     if (components.all.empty())
         return held(context, "Nothing changed in the context, so the last state is held.");
     Forecast f;
     f.forecaster = "bandtrend";
     f.context_length = context.length();
-    hold(components.all, method.design.confidence);
     f.trajectory = joined(context, components.all, clamp);
     f.spread = spread_of(moving, components);
     // What all of the specimen shares tells best.
@@ -177,11 +119,11 @@ Image<SrgbF> level_of(const Forecast& f) {
 
 /// What the same method said of the end of the context when that was held back. Whoever reads of a
 /// gain takes it for foresight, so what the frame held still had of noise is told apart.
-std::string evidence(const Context& context, Method& method) {
+std::string evidence(const Context& context, BandMethod& method) {
     const int back = std::max(1, std::min(context.length() - 3, context.length() / 3));
     if (context.length() < 5) return "";
     const int seen = context.length() - back;
-    const Context before = end_of(context, 0, seen);
+    const Context before = part_of(context, 0, seen);
     const Mask moving = specimen_of(context);
     const double still = error_on(persistence().forecast(before), context, seen, back, moving);
     const Forecast forecast_before = forecast(before, false, method);
@@ -211,12 +153,12 @@ std::string evidence(const Context& context, Method& method) {
 }  // namespace
 
 Forecaster band_trend(const BandTrendOptions& options) {
-    return {"bandtrend",
-            [options, method = std::make_shared<Method>(options.design)](const Context& context) {
+    return {"bandtrend", [options, method = std::make_shared<BandMethod>(options.design)](
+                             const Context& context) {
                 check_context(context);
                 const bool long_one = context.length() > kLongestContext;
                 const Context recent =
-                    long_one ? end_of(context, context.length() - kLongestContext, kLongestContext)
+                    long_one ? part_of(context, context.length() - kLongestContext, kLongestContext)
                              : Context();
                 const Context& used = long_one ? recent : context;
                 Forecast f = forecast(used, options.clamp, *method);

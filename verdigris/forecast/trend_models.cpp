@@ -17,60 +17,24 @@ struct Slowing {
     double kappa, prior;
 };
 constexpr Slowing kSlowing[] = {{0, .15}, {.02, .20}, {.05, .25}, {.1, .20}, {.2, .12}, {.5, .08}};
-constexpr double kTrusted = 50;  // units after which a drift may as well be another one
 constexpr double kWandering[] = {0, .3, .6, .8, .92, .98, 1};
 constexpr double kBending[] = {.5, .75, .85, .92, .96, .99};
 constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
-constexpr double kFloor = 1e-4;                  // variance that no model explains, of V
 constexpr double kWalk = .1;                     // and of a level that walks at random
 constexpr double kNegligible = 1e-9;             // weight of a model
+constexpr double kUnlikely = 1e-3;               // of one that is not told of
 constexpr double kEventSize[] = {10, 1e3, 1e5};  // variance, of V
-
-double covariance_at(bool bending, double rho, double lag) {
-    const double fall = lag == 0 ? 1 : std::pow(rho, lag);
-    return bending ? (1 - std::log(rho) * lag) * fall : fall;
-}
-
-/// Variance of what a drift adds up to, for kTrendUnits ahead.
-VectorXd variance_ahead(bool bending, double rho, double kappa) {
-    const int last = int(kTrendUnits.back());
-    std::vector<double> covariance, size;
-    for (int lag = 0; lag <= last; ++lag) {
-        covariance.push_back(covariance_at(bending, rho, lag));
-        size.push_back(std::exp(-kappa * lag));
-    }
-    VectorXd out(Eigen::Index(kTrendUnits.size()));
-    double sum = 0;
-    for (int ahead = 1, u = 0; ahead <= last; ++ahead) {
-        double with_earlier = 0;
-        for (int i = 1; i < ahead; ++i)
-            with_earlier += size[std::size_t(i)] * covariance[std::size_t(ahead - i)];
-        sum += size[std::size_t(ahead)] * (2 * with_earlier + size[std::size_t(ahead)]);
-        if (ahead == int(kTrendUnits[std::size_t(u)])) out[u++] = sum;
-    }
-    return out;
-}
-
-/// Of differences of white noise of variance 1.
-MatrixXd noise_of_increments(int q) {
-    MatrixXd t = 2 * MatrixXd::Identity(q, q);
-    for (int i = 0; i + 1 < q; ++i) t(i, i + 1) = t(i + 1, i) = -1;
-    return t;
-}
 
 }  // namespace
 
 TrendModels::TrendModels(int increments, const TrendPrior& prior)
     : increments_(increments), prior_(prior) {
-    const int q = increments, units = int(kTrendUnits.size());
+    const int q = increments;
     const bool events = prior.event > 0;
     for (int i = 0; events && i < q; ++i) events_.push_back({VectorXd::Unit(q, i), i + 1, false});
     for (int i = 1; events && i < q; ++i)
         events_.push_back({VectorXd::Unit(q, i - 1) - VectorXd::Unit(q, i), i, true});
 
-    const MatrixXd noise = noise_of_increments(q);
-    const VectorXd units_ahead = Eigen::Map<const VectorXd>(kTrendUnits.data(), units);
-    const VectorXd doubted = 1 - (-(units_ahead / kTrusted).array().cube()).exp();
     const std::vector<Slowing> slowings =
         prior.slowing && prior.drift
             ? std::vector<Slowing>(std::begin(kSlowing), std::end(kSlowing))
@@ -78,32 +42,12 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     const std::vector<double> noises =
         prior.noise ? std::vector<double>(std::begin(kNoise), std::end(kNoise))
                     : std::vector<double>{0};
-    const auto add_family = [&](bool bending, double rho, const Slowing& slowing, double weight) {
-        MatrixXd drift(q, q), future = MatrixXd::Zero(units, q);
-        const auto size = [&](double back) { return std::exp(slowing.kappa * back); };
-        for (int i = 0; i < q; ++i) {
-            for (int j = 0; j < q; ++j) {
-                drift(i, j) = size(q - 1 - i) * size(q - 1 - j) *
-                              covariance_at(bending, rho, std::abs(i - j));
-            }
-            // Summed unit by unit up to each of kTrendUnits.
-            double sum = 0;
-            for (int u = 0, ahead = 1; u < units; ++u) {
-                for (; ahead <= int(kTrendUnits[std::size_t(u)]); ++ahead)
-                    sum += size(q - 1 - i) * size(-ahead) * std::exp(-prior.doubt * ahead) *
-                           covariance_at(bending, rho, q - 1 - i + ahead);
-                future(u, i) = sum;
-            }
-        }
-        const VectorXd drifting = variance_ahead(bending, rho, slowing.kappa + prior.doubt);
-        const VectorXd ahead =
-            drifting + doubted.cwiseProduct(variance_ahead(bending, rho, slowing.kappa));
+    const auto add_family = [&](bool bends, double rho, const Slowing& slowing, double weight) {
+        TrendKind kind{TrendShape::drift, bends, rho, slowing.kappa};
+        const DriftMoments drift = drift_moments(kind, q, prior.doubt);
         for (const double eta : noises) {
-            MatrixXd with_future = future;
-            with_future.col(q - 1).array() -= eta;  // the last frame's noise goes away again
-            add(drift + eta * noise + kFloor * MatrixXd::Identity(q, q), with_future,
-                ahead + VectorXd::Constant(units, 2 * eta) + kFloor * units_ahead,
-                weight * slowing.prior / double(noises.size()));
+            kind.eta = eta;
+            add(kind, with_noise(drift, eta), weight * slowing.prior / double(noises.size()));
         }
     };
     const bool bending = prior.bending && prior.drift;
@@ -115,22 +59,19 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
         if (!bending) continue;
         for (const double rho : kBending) add_family(true, rho, slowing, share);
     }
-    MatrixXd held = MatrixXd::Zero(units, q);
-    add(MatrixXd::Identity(q, q), held, units_ahead, kWalk);
-    held.col(q - 1).setConstant(-1);
-    if (!prior.noise) return;
-    add(noise + 10 * kFloor * MatrixXd::Identity(q, q), held,
-        VectorXd::Constant(units, 2) + 10 * kFloor * units_ahead, prior.level);
+    add({TrendShape::walk}, walk_moments(q), kWalk);
+    if (prior.noise) add({TrendShape::level, false, 0, 0, 1}, level_moments(q), prior.level);
 }
 
-void TrendModels::add(const MatrixXd& covariance, const MatrixXd& with_future,
-                      const VectorXd& future, double prior) {
-    const Eigen::LLT<MatrixXd> cholesky(covariance);
+void TrendModels::add(const TrendKind& kind, const TrendMoments& moments, double prior) {
+    const Eigen::LLT<MatrixXd> cholesky(moments.covariance);
     Model m;
+    m.kind = kind;
     m.precision = cholesky.solve(MatrixXd::Identity(increments_, increments_));
     m.log_determinant = 2 * cholesky.matrixLLT().diagonal().array().log().sum();
-    m.weights = with_future * m.precision;
-    m.unexplained = (future - m.weights.cwiseProduct(with_future).rowwise().sum()).cwiseMax(0);
+    m.weights = moments.with_future * m.precision;
+    m.unexplained =
+        (moments.future - m.weights.cwiseProduct(moments.with_future).rowwise().sum()).cwiseMax(0);
     m.log_prior = std::log(prior);
     m.at_events.resize(increments_, Eigen::Index(events_.size()));
     m.of_events.resize(Eigen::Index(events_.size()));
@@ -199,7 +140,7 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
         const double all = (m.precision.array() * g.array()).sum();
         const MatrixXd with_gram = m.weights * g;
         const VectorXd plain = with_gram.cwiseProduct(m.weights).rowwise().sum();
-        double of_model = evidence[k++] / total;
+        double of_model = evidence[k++] / total, variance = of_model * all / q;
         if (of_model > kNegligible) {
             square += of_model * plain;
             left += of_model * all / q * m.unexplained;
@@ -219,9 +160,12 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
                 square += p * (plain - 2 * share * toward.cwiseProduct(with_gram * at) +
                                share * share * seen * toward.cwiseAbs2());
                 left += p * (all - share * seen) / q * (m.unexplained + share * toward.cwiseAbs2());
+                variance += p * (all - share * seen) / q;
             }
         }
         out.weights += of_model * m.weights;
+        if (of_model >= kUnlikely)
+            out.likely.push_back({m.kind, of_model, scale * widened * variance / of_model});
     }
     out.change = scale * (out.weights * g).cwiseProduct(out.weights).rowwise().sum();
     out.error = (scale * square - out.change).cwiseMax(0) + scale * widened * left;

@@ -9,13 +9,16 @@
 #include <vector>
 
 #include "verdigris/forecast/band_trend_design.h"
+#include "verdigris/forecast/trend_moments.h"
 
 namespace verdigris {
 
-/// Units ahead for which a trend is worked out: linear in between, held beyond. chosen: dense where
-/// forecasts are judged.
-inline constexpr std::array kTrendUnits{1.,  2.,  3.,  4.,  5.,  6.,  7.,  8.,  9.,  10.,
-                                        12., 15., 20., 25., 30., 40., 50., 65., 85., 100.};
+/// One model of many: how likely it is, and the V that goes with it.
+struct LikelyKind {
+    TrendKind kind;
+    double probability = 0;
+    double variance = 0;  ///< in the unit of `gram`, widened by what is not known of it
+};
 
 /// What a component does next, as a combination of its increments.
 struct Trend {
@@ -27,6 +30,7 @@ struct Trend {
     double event = 0;      ///< probability of a step or an outlier among the frames
     int event_frame = 0;   ///< of the likeliest: the first frame after a step, or the outlier
     bool outlier = false;  ///< which of the two it is
+    std::vector<LikelyKind> likely;  ///< those of at least a thousandth, events counted in
 };
 
 /// For a number of increments (frames - 1), which is all that the grid depends on. Increments
@@ -49,6 +53,7 @@ class TrendModels {
 
   private:
     struct Model {
+        TrendKind kind;
         Eigen::MatrixXd precision;    ///< of the increments at V = 1
         Eigen::MatrixXd weights;      ///< [kTrendUnits x increments]
         Eigen::VectorXd unexplained;  ///< variance of the change to come that they leave, V = 1
@@ -63,9 +68,7 @@ class TrendModels {
         int frame = 0;
         bool outlier = false;
     };
-    /// `with_future`: covariance of the change to come with the increments; `future`: its own.
-    void add(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& with_future,
-             const Eigen::VectorXd& future, double prior);
+    void add(const TrendKind& kind, const TrendMoments& moments, double prior);
 
     int increments_ = 0;
     TrendPrior prior_;

@@ -14,6 +14,7 @@
 #include "verdigris/observe/crop.h"
 #include "verdigris/observe/drift.h"
 #include "verdigris/observe/look.h"
+#include "verdigris/observe/recent_frames.h"
 #include "verdigris/observe/unit_axis.h"
 
 namespace verdigris {
@@ -215,9 +216,19 @@ void pass_verdict(Inspection& out) {
     }
 }
 
-}  // namespace
+/// Frames that cannot be read have had their finding; there is less to look at then, no error.
+RecentUnits whatever_is_recent(const Recording& recording, const Look& look,
+                               const SpecimenFinding& finding, Rect crop, const AxisPlan& axis,
+                               const Progress& progress) {
+    try {
+        return recent_units(recording, look, finding, crop, axis, progress);
+    } catch (const Error& e) {
+        if (e.code() == ErrorCode::interrupted) throw;
+        return {};
+    }
+}
 
-Inspection inspect(const Recording& recording, const Progress& progress) {
+Inspection inspected(const Recording& recording, const Progress& progress, RecentUnits* recent) {
     const RecordingInfo& info = recording.info();
     if (std::min(info.width, info.height) < 2) {
         throw Error(ErrorCode::bad_input,
@@ -274,7 +285,20 @@ Inspection inspect(const Recording& recording, const Progress& progress) {
     measure_steps(look, finding, out);
     note_drift(drift, out.findings);
     pass_verdict(out);
+    if (recent != nullptr)
+        *recent = whatever_is_recent(recording, look, finding, out.crop, axis, progress);
     return out;
+}
+
+}  // namespace
+
+Inspection inspect(const Recording& recording, const Progress& progress) {
+    return inspected(recording, progress, nullptr);
+}
+
+Inspection inspect(const Recording& recording, RecentUnits& recent, const Progress& progress) {
+    recent = {};
+    return inspected(recording, progress, &recent);
 }
 
 std::string to_string(Verdict verdict) {

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/trend_moments.h"
+
+#include <cmath>
+#include <vector>
+
+namespace verdigris {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kTrusted = 50;  // units after which a drift may as well be another one
+constexpr double kFloor = 1e-4;  // variance that no model explains, of V
+
+double covariance_at(bool bending, double rho, double lag) {
+    const double fall = lag == 0 ? 1 : std::pow(rho, lag);
+    return bending ? (1 - std::log(rho) * lag) * fall : fall;
+}
+
+/// Variance of what a drift adds up to, for kTrendUnits ahead.
+VectorXd variance_ahead(bool bending, double rho, double kappa) {
+    const int last = int(kTrendUnits.back());
+    std::vector<double> covariance, size;
+    for (int lag = 0; lag <= last; ++lag) {
+        covariance.push_back(covariance_at(bending, rho, lag));
+        size.push_back(std::exp(-kappa * lag));
+    }
+    VectorXd out(Eigen::Index(kTrendUnits.size()));
+    double sum = 0;
+    for (int ahead = 1, u = 0; ahead <= last; ++ahead) {
+        double with_earlier = 0;
+        for (int i = 1; i < ahead; ++i)
+            with_earlier += size[std::size_t(i)] * covariance[std::size_t(ahead - i)];
+        sum += size[std::size_t(ahead)] * (2 * with_earlier + size[std::size_t(ahead)]);
+        if (ahead == int(kTrendUnits[std::size_t(u)])) out[u++] = sum;
+    }
+    return out;
+}
+
+/// Of differences of white noise of variance 1.
+MatrixXd noise_of_increments(int q) {
+    MatrixXd t = 2 * MatrixXd::Identity(q, q);
+    for (int i = 0; i + 1 < q; ++i) t(i, i + 1) = t(i + 1, i) = -1;
+    return t;
+}
+
+VectorXd units_ahead() {
+    return Eigen::Map<const VectorXd>(kTrendUnits.data(), Eigen::Index(kTrendUnits.size()));
+}
+
+}  // namespace
+
+DriftMoments drift_moments(const TrendKind& kind, int q, double doubt) {
+    const int units = int(kTrendUnits.size());
+    DriftMoments out{MatrixXd(q, q), MatrixXd::Zero(units, q), {}};
+    const auto size = [&](double back) { return std::exp(kind.kappa * back); };
+    for (int i = 0; i < q; ++i) {
+        for (int j = 0; j < q; ++j) {
+            out.drift(i, j) = size(q - 1 - i) * size(q - 1 - j) *
+                              covariance_at(kind.bending, kind.rho, std::abs(i - j));
+        }
+        // Summed unit by unit up to each of kTrendUnits.
+        double sum = 0;
+        for (int u = 0, ahead = 1; u < units; ++u) {
+            for (; ahead <= int(kTrendUnits[std::size_t(u)]); ++ahead)
+                sum += size(q - 1 - i) * size(-ahead) * std::exp(-doubt * ahead) *
+                       covariance_at(kind.bending, kind.rho, q - 1 - i + ahead);
+            out.future(u, i) = sum;
+        }
+    }
+    const VectorXd doubted = 1 - (-(units_ahead() / kTrusted).array().cube()).exp();
+    const VectorXd drifting = variance_ahead(kind.bending, kind.rho, kind.kappa + doubt);
+    out.ahead = drifting + doubted.cwiseProduct(variance_ahead(kind.bending, kind.rho, kind.kappa));
+    return out;
+}
+
+TrendMoments with_noise(const DriftMoments& drift, double eta) {
+    const auto q = drift.drift.rows();
+    TrendMoments m;
+    m.with_future = drift.future;
+    m.with_future.col(q - 1).array() -= eta;  // the last frame's noise goes away again
+    m.covariance =
+        drift.drift + eta * noise_of_increments(int(q)) + kFloor * MatrixXd::Identity(q, q);
+    m.future =
+        drift.ahead + VectorXd::Constant(drift.ahead.size(), 2 * eta) + kFloor * units_ahead();
+    return m;
+}
+
+TrendMoments walk_moments(int q) {
+    const auto units = Eigen::Index(kTrendUnits.size());
+    return {MatrixXd::Identity(q, q), MatrixXd::Zero(units, q), units_ahead()};
+}
+
+TrendMoments level_moments(int q, double eta) {
+    const auto units = Eigen::Index(kTrendUnits.size());
+    TrendMoments m{eta * noise_of_increments(q) + 10 * kFloor * MatrixXd::Identity(q, q),
+                   MatrixXd::Zero(units, q),
+                   {}};
+    m.with_future.col(q - 1).setConstant(-eta);
+    m.future = VectorXd::Constant(units, 2 * eta) + 10 * kFloor * units_ahead();
+    return m;
+}
+
+}  // namespace verdigris

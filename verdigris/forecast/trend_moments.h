@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The Gaussian models of a trend: how the increments of a component hang together with each other
+// and with the change to come (internal).
+// Model: docs/models/bandtrend.md
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace verdigris {
+
+/// Units ahead for which a trend is worked out: linear in between, held beyond. chosen: dense where
+/// forecasts are judged.
+inline constexpr std::array kTrendUnits{1.,  2.,  3.,  4.,  5.,  6.,  7.,  8.,  9.,  10.,
+                                        12., 15., 20., 25., 30., 40., 50., 65., 85., 100.};
+
+enum class TrendShape {
+    drift,  ///< a change that goes on
+    walk,   ///< a level that walks at random
+    level,  ///< one level, and noise
+};
+
+/// One model.
+struct TrendKind {
+    TrendShape shape{};
+    bool bending = false;  ///< Matern 3/2; else an autoregression
+    double rho = 0;        ///< how neighboring increments hang together
+    double kappa = 0;      ///< slows down by e^-kappa per unit
+    double eta = 0;        ///< variance of the white noise of frames, of V
+};
+
+/// At V = 1, for q increments.
+struct TrendMoments {
+    Eigen::MatrixXd covariance;   ///< [q x q] of the increments
+    Eigen::MatrixXd with_future;  ///< [kTrendUnits x q] of the change to come with them
+    Eigen::VectorXd future;       ///< [kTrendUnits] its own; the noise of both ends is in it
+};
+
+/// A drift without noise: the same for every eta.
+struct DriftMoments {
+    Eigen::MatrixXd drift, future;  ///< as in TrendMoments, without noise
+    Eigen::VectorXd ahead;
+};
+/// `doubt`: see TrendPrior.
+DriftMoments drift_moments(const TrendKind& kind, int q, double doubt);
+TrendMoments with_noise(const DriftMoments& drift, double eta);
+TrendMoments walk_moments(int q);
+/// `eta` 1 is the model; with less, of frames with less noise.
+TrendMoments level_moments(int q, double eta = 1);
+
+}  // namespace verdigris

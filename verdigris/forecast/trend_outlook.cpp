@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "verdigris/forecast/trend_outlook.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace verdigris {
+namespace {
+
+/// Of one model at V = 1, the noise of the frame to come taken off.
+double error_left(const TrendMoments& m, double eta) {
+    const Eigen::LLT<Eigen::MatrixXd> cholesky(m.covariance);
+    double sum = 0;
+    const Eigen::MatrixXd weights =
+        cholesky.solve(m.with_future.topRows(kOutlookUnits).transpose()).transpose();
+    for (Eigen::Index u = 0; u < kOutlookUnits; ++u)
+        sum += std::max(0.0, m.future[u] - weights.row(u).dot(m.with_future.row(u)) - eta);
+    return sum / kOutlookUnits;
+}
+
+double error_of(const TrendKind& kind, double doubt, const Circumstances& c) {
+    if (kind.shape == TrendShape::walk) return error_left(walk_moments(c.increments), 0);
+    if (kind.shape == TrendShape::level) {
+        const double eta = std::max(c.noise, 1e-6);
+        return error_left(level_moments(c.increments, eta), eta);
+    }
+    // What slows down is smaller later on, and noise is not.
+    const double size = std::exp(-2 * kind.kappa * c.later);
+    const double eta = kind.eta * c.noise / size;
+    return size * error_left(with_noise(drift_moments(kind, c.increments, doubt), eta), eta);
+}
+
+}  // namespace
+
+double expected_error(const Trend& trend, double doubt, const Circumstances& circumstances) {
+    double sum = 0, weight = 0;
+    for (const LikelyKind& likely : trend.likely) {
+        sum += likely.probability * likely.variance * error_of(likely.kind, doubt, circumstances);
+        weight += likely.probability;
+    }
+    return weight > 0 ? sum / weight : 0;
+}
+
+double frame_noise(const Trend& trend) {
+    double sum = 0, weight = 0;
+    for (const LikelyKind& likely : trend.likely) {
+        sum += likely.probability * likely.variance * likely.kind.eta;
+        weight += likely.probability;
+    }
+    return weight > 0 ? sum / weight : 0;
+}
+
+}  // namespace verdigris

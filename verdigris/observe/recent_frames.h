@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Reading the frames behind RecentUnits (internal).
+#pragma once
+
+#include "verdigris/observe/crop.h"
+#include "verdigris/observe/recent_units.h"
+#include "verdigris/observe/unit_axis.h"
+#include "verdigris/progress.h"
+
+namespace verdigris {
+
+/// What `look` has is not read again. Of photographs all that count are; of long videos so few
+/// that about as much is decoded as for the look: six to twelve. Fewer than two where the end of
+/// the recording does not decode. `plan`: of the frames that decode.
+RecentUnits recent_units(const Recording& recording, const Look& look,
+                         const SpecimenFinding& finding, Rect crop, const AxisPlan& plan,
+                         const Progress& progress);
+
+}  // namespace verdigris
