@@ -52,12 +52,16 @@ Image<SrgbF> encoded_picture(const std::string& path, Statuses& notes) {
         });
     };
     std::visit(convert, file.pixels);
+    if (std::holds_alternative<Image<LinearF>>(file.pixels))
+        notes.push_back({"linear", Severity::info,
+                         fs::path(path).filename().string() +
+                             ": linear light, compared as the encoded sRGB that it becomes"});
     const auto outside = std::ranges::count_if(out.pixels(), [](const SrgbF& c) {
         return std::min({c.r, c.g, c.b}) < 0 || std::max({c.r, c.g, c.b}) > 1;
     });
     if (outside > 0) {
         notes.push_back({"limited", Severity::caution,
-                         fmt::format("{}: {:.2g} % of its pixels lie outside of what a screen "
+                         fmt::format("{}: {:.3g} % of its pixels lie outside of what a screen "
                                      "shows and are limited to it",
                                      fs::path(path).filename().string(),
                                      100.0 * double(outside) / double(out.pixel_count()))});
@@ -228,7 +232,9 @@ void add_compare(CLI::App& app, Session& session) {
         ->delimiter(',')
         ->check(CLI::IsMember(kMetrics))
         ->capture_default_str();
-    command->add_option("--map", a->map, "Write FLIP's map of errors as a PNG");
+    command->add_option("--map", a->map, "Write FLIP's map of errors, a .png")
+        ->check(CLI::Validator(
+            [](std::string& text) { return text.empty() ? "the name is missing" : ""; }, ""));
     command->add_option("--ppd", a->ppd, "Pixels in a degree of the field of view, for FLIP")
         ->check(CLI::Range(kFlipSmallestPpd, kFlipLargestPpd));
     command->add_option("--lpips-weights", a->lpips_weights,

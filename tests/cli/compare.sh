@@ -85,6 +85,14 @@ if command -v ffmpeg >/dev/null; then
   grep -q '"alpha\.png: the alpha channel is ignored' "$scratch/alpha.json" || fail "ignored alpha is not told, or its file is named twice"
 fi
 
+# What was limited, and where: each file once, shares in plain digits.
+"$fixture" skies "$scratch/skies"
+"$verdigris" compare "$scratch/skies/bright.exr" "$scratch/skies/bright.exr" --metric psnr 2>"$scratch/stderr" >/dev/null ||
+  fail "a linear EXR failed"
+grep -qE 'caution: bright\.exr: 100 % of its pixels' "$scratch/stderr" || fail "no plain share: $(cat "$scratch/stderr")"
+grep -q 'note: bright\.exr: linear light' "$scratch/stderr" || fail "a conversion to sRGB is not told"
+! grep -q 'exr: .*exr: ' "$scratch/stderr" || fail "a note names its file twice"
+
 # Bad input: one sentence, the right status, no map.
 "$fixture" hostile "$scratch/in"
 bad() { # bad STATUS PATTERN ARGUMENTS...
@@ -101,6 +109,9 @@ bad 2 "metric" "$a" "$b" --metric psnr,vmaf
 bad 2 "add flip" "$a" "$b" --metric psnr
 bad 2 "ppd" "$a" "$b" --ppd 0.5
 bad 2 "lpips-net" "$a" "$b" --lpips-net resnet
+expect 2 "map\.jpg: the map is a \.png" "$verdigris" compare "$a" "$b" --map "$scratch/out/map.jpg"
+expect 2 "map.*name is missing" "$verdigris" compare "$a" "$b" --map ""
+expect_nothing "$scratch/out"
 before=$(sha256sum <"$b")
 expect 2 "0011\.png.*overwrite" "$verdigris" compare "$a" "$b" --map "$b"
 [ "$(sha256sum <"$b")" = "$before" ] || fail "a picture was overwritten"

@@ -127,6 +127,7 @@ void skies(const fs::path& root) {
     std::vector<Imf::Rgba> sky(32 * 16, Imf::Rgba(0.3f, 0.4f, 0.6f));
     sky[4 * 32 + 5] = Imf::Rgba(400, 350, 300);  // a sun
     put_exr(root / "good.exr", sky, 32);
+    put_exr(root / "bright.exr", std::vector<Imf::Rgba>(32 * 16, Imf::Rgba(2, 3, 4)), 32);
     put_exr(root / "black.exr", std::vector<Imf::Rgba>(32 * 16, Imf::Rgba(0, 0, 0)), 32);
     sky[77].r = std::numeric_limits<float>::quiet_NaN();
     put_exr(root / "nan.exr", sky, 32);
