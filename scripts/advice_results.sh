@@ -7,7 +7,7 @@
 # What was measured of every cut is kept in out/advice/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-seeds=${1:-701 702}
+seeds=${1:-703 704}
 build=${BUILD:-build/ci}
 [ -x "$build/verdigris_capture_advice_trial" ] || [ -x "$build/bench/verdigris_capture_advice_trial" ] ||
   cmake --build "$build" --target verdigris_capture_advice_trial verdigris_cli
@@ -24,9 +24,13 @@ for preset in chamber air uniform spotted reversal patina; do
 done
 for recording in ${2:+"$2"/*/}; do
   name=$(basename "$recording")
-  [ -s "$out/$name.txt" ] || "$trial" 1 "$recording" >"$out/$name.txt"
+  [ -s "$out/$name.txt" ] || "$trial" 1 "${recording%/}" >"$out/$name.txt"
 done
-cat "$out"/*.txt | awk '
+for preset in chamber air uniform spotted reversal patina; do
+  for seed in $seeds; do cat "$out/$preset-$seed.txt"; done
+done >"$out/all"
+for recording in ${2:+"$2"/*/}; do cat "$out/$(basename "$recording").txt"; done >>"$out/all"
+awk '
   function median(list, n, i, j, t) {
     for (i = 2; i <= n; ++i)
       for (j = i; j > 1 && list[j] < list[j - 1]; --j) { t = list[j]; list[j] = list[j - 1]; list[j - 1] = t }
@@ -60,4 +64,4 @@ cat "$out"/*.txt | awk '
       sqrt(square / n - (sum / n) ^ 2), within, within_one
     printf "Said to be halved: %d, of which %d were; of %d that were halved, not said: %d.\n",
       right + wrong, right, right + missed, missed
-  }'
+  }' "$out/all"

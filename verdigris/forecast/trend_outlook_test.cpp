@@ -33,30 +33,39 @@ double of_a_line(int n, double sigma2) {
     return sum / kOutlookUnits;
 }
 
+/// A steady pace of variance 1 may all the same be another one after a while: that no recording
+/// tells (docs/models/bandtrend.md, how far off it may be).
+double of_a_new_pace() {
+    double sum = 0;
+    for (int h = 1; h <= kOutlookUnits; ++h) sum += h * h * (1 - std::exp(-std::pow(h / 50.0, 3)));
+    return sum / kOutlookUnits;
+}
+
 TEST(TrendOutlook, OfASteadyPaceUnderNoiseTheErrorFallsAsThatOfALine) {
-    // One model, known: rho 1, no slowing, noise as large as the pace; and no doubt of it.
+    // One model, known: rho 1, no slowing, noise as large as the pace.
     Trend trend;
     trend.likely = {{{TrendShape::drift, false, 1, 0, 1}, 1, 1}};
+    const auto known = [](int n) { return of_a_line(n, 1) + of_a_new_pace(); };
     for (const int n : {5, 10, 20, 40}) {
         const double expected = expected_error(trend, 0, {n - 1, 0, 1});
-        // The pace has a prior here, and the line has none: a little better with few frames.
-        EXPECT_LT(expected, of_a_line(n, 1) * 1.02) << n;
-        EXPECT_GT(expected, of_a_line(n, 1) * (n < 10 ? 0.6 : 0.9)) << n;
+        // The pace has a prior here, and the line has none: better with few frames.
+        EXPECT_LT(expected, known(n) * 1.02) << n;
+        EXPECT_GT(expected, known(n) * (n < 10 ? 0.6 : 0.95)) << n;
     }
-    // So the number of frames that halves it is known. Ten frames: 16 do, by the line.
+    // So the number of frames that halves its root is known.
     const double now = expected_error(trend, 0, {9, 0, 1});
-    int n = 10;
+    int n = 10, by_line = 10;
     while (expected_error(trend, 0, {n - 1, 0, 1}) > now / 4) ++n;
-    int by_line = 10;
-    while (of_a_line(by_line, 1) > of_a_line(10, 1) / 4) ++by_line;
+    while (known(by_line) > known(10) / 4) ++by_line;
     EXPECT_NEAR(n, by_line, 2);
+    EXPECT_GT(n, 20);
 }
 
 TEST(TrendOutlook, FoundInTheIncrementsThatIsSeen) {
     const Trend trend = steady(9, 1, 1);
     const double now = expected_error(trend, kDoubt, {9, 0, 1});
-    EXPECT_LT(expected_error(trend, kDoubt, {19, 0, 1}), 0.6 * now);
-    EXPECT_LT(expected_error(trend, kDoubt, {9, 0, 0.25}), 0.6 * now);
+    EXPECT_LT(expected_error(trend, kDoubt, {19, 0, 1}), 0.75 * now);
+    EXPECT_LT(expected_error(trend, kDoubt, {9, 0, 0.25}), 0.75 * now);
     EXPECT_NEAR(frame_noise(trend), 1, 0.3);
 }
 

@@ -13,11 +13,13 @@ namespace {
 // chosen: in trials on simulated presets and real copper more than ten told hardly anything, and a
 // forecast of forty takes eight times as long.
 constexpr int kMostUnits = 20;
-// chosen: of videos 6 to 12 units, between what a forecast learns something from and what it looks
+// chosen: of videos 7 to 12 units, between what a forecast learns something from and what it looks
 // at if nobody says otherwise.
-constexpr int kFewestOfVideo = 6, kMostOfVideo = 12;
-// chosen: of its frames as many as the look may decode, see look.cpp.
-constexpr double kShare = 0.04, kLeastDecoded = 250, kFramesPerJump = 125;
+constexpr int kFewestOfVideo = 7, kMostOfVideo = 12;
+// chosen: and else so many that this share of its frames is decoded; half of what the look may
+// cost.
+constexpr double kShare = 0.02, kLeastDecoded = 60;
+constexpr double kFramesPerJump = 125;  // see look.cpp
 
 /// The last frame of each unit step, oldest first, as far back as no step is empty.
 std::vector<int> last_of_units(const AxisPlan& plan) {

@@ -9,9 +9,9 @@
 
 namespace verdigris {
 
-/// What `look` has is not read again. Of photographs all that count are; of long videos so few
-/// that about as much is decoded as for the look: six to twelve. Fewer than two where the end of
-/// the recording does not decode. `plan`: of the frames that decode.
+/// What `look` has is not read again. Of photographs the last 20 units are; of long videos 7 to 12,
+/// so few that no more is decoded than for the look. Fewer where the end of the recording does not
+/// decode. `plan`: of the frames that decode.
 RecentUnits recent_units(const Recording& recording, const Look& look,
                          const SpecimenFinding& finding, Rect crop, const AxisPlan& plan,
                          const Progress& progress);
