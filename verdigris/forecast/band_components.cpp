@@ -119,18 +119,18 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     if (corrected && design.relight) {
         // It was taken off the increments by relighting them; where it goes is another matter.
         const LightPart part(context, moving, log_steps(light));
-        Component c = forecast_component(part, moments_of(part), kLightCount, light_models.of(q));
+        Component c = forecast_component(part, part.moments(), kLightCount, light_models.of(q));
         if (!c.terms.empty()) c.trend.error = error_if_it_goes_on(c, trends);
         add_light(std::move(c));
     }
     if (design.light && design.gray && !shows_light(context)) {
         const LightPart part(context, moving, rest);
-        add_light(forecast_component(part, moments_of(part), design.global_count, trends));
+        add_light(forecast_component(part, part.moments(), design.global_count, trends));
         part.subtract(rest);
     }
     if (design.global) {
         const AffinePart part(context, moving, rest);
-        const PartMoments moments = moments_of(part);
+        const PartMoments moments = part.moments();
         out.all.push_back(forecast_component(part, moments, design.global_count, trends));
         out.all.back().common = true;
         out.global_energy = moments.energy;
@@ -143,13 +143,13 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     for (const int sigma : sigmas) {
         const SmoothPart part(rest, moving, sigma);
         const double cells = area / (4 * std::numbers::pi * sigma * sigma);
-        out.all.push_back(forecast_component(part, moments_of(part),
+        out.all.push_back(forecast_component(part, part.moments(),
                                              std::clamp(cells, 1.0, design.largest_count), trends));
         part.subtract(rest);
     }
     if (design.local) {
         const RestPart part(rest, moving);
-        out.all.push_back(forecast_component(part, moments_of(part), design.largest_count, trends));
+        out.all.push_back(forecast_component(part, part.moments(), design.largest_count, trends));
     }
     std::erase_if(out.all, [](const Component& c) { return c.terms.empty(); });
     return out;

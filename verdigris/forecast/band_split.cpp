@@ -58,27 +58,32 @@ void MaskedGaussian::blur(Field& cells) const {
     const int reach = int(taps_.size()) - 1;
     const auto columns = std::size_t(columns_);
     Field across(cells.size());
+    // With zeros on both sides there is nothing to ask at the ends.
+    Field padded(columns + 2 * std::size_t(reach), 0);
+    const float* middle = padded.data() + reach;
     for (int y = 0; y < rows_; ++y) {
         const float* from = cells.data() + std::size_t(y) * columns;
+        std::copy(from, from + columns, padded.begin() + reach);
         float* to = across.data() + std::size_t(y) * columns;
-        for (int x = 0; x < columns_; ++x) to[x] = taps_[0] * from[x];
-        for (int i = 1; i <= std::min(reach, columns_ - 1); ++i) {
+        for (int x = 0; x < columns_; ++x) to[x] = taps_[0] * middle[x];
+        for (int i = 1; i <= reach; ++i) {
             const float tap = taps_[std::size_t(i)];
-            for (int x = i; x < columns_; ++x) to[x] += tap * from[x - i];
-            for (int x = 0; x < columns_ - i; ++x) to[x] += tap * from[x + i];
+            const float *left = middle - i, *right = middle + i;
+            for (int x = 0; x < columns_; ++x) to[x] += tap * (left[x] + right[x]);
         }
     }
+    const Field nothing(columns, 0);
+    const auto line = [&](int y) {
+        return y < 0 || y >= rows_ ? nothing.data() : across.data() + std::size_t(y) * columns;
+    };
     for (int y = 0; y < rows_; ++y) {
         float* to = cells.data() + std::size_t(y) * columns;
-        const float* center = across.data() + std::size_t(y) * columns;
+        const float* center = line(y);
         for (int x = 0; x < columns_; ++x) to[x] = taps_[0] * center[x];
         for (int i = 1; i <= reach; ++i) {
             const float tap = taps_[std::size_t(i)];
-            for (const int at : {y - i, y + i}) {
-                if (at < 0 || at >= rows_) continue;
-                const float* from = across.data() + std::size_t(at) * columns;
-                for (int x = 0; x < columns_; ++x) to[x] += tap * from[x];
-            }
+            const float *above = line(y - i), *below = line(y + i);
+            for (int x = 0; x < columns_; ++x) to[x] += tap * (above[x] + below[x]);
         }
     }
 }
@@ -101,7 +106,10 @@ void MaskedGaussian::row(const Field& cells, int y, float* out) const {
     const std::uint8_t* inside = inside_.row(y);
     if (cell_ == 1) {
         const float* from = cells.data() + std::size_t(y) * std::size_t(width_);
-        for (int x = 0; x < width_; ++x) out[x] = inside[x] ? from[x] : 0;
+        for (int x = 0; x < width_; ++x) {
+            const float value = from[x];  // read in any case, so that it becomes vectors
+            out[x] = inside[x] ? value : 0;
+        }
         return;
     }
     const Between down = between(y, rows_);
@@ -117,7 +125,10 @@ void MaskedGaussian::row(const Field& cells, int y, float* out) const {
         const float left = middle[std::size_t(b.from)];
         out[x] = left + b.share * (middle[std::size_t(b.to)] - left);
     }
-    for (int x = 0; x < width_; ++x) out[x] = inside[x] ? out[x] : 0;
+    for (int x = 0; x < width_; ++x) {
+        const float value = out[x];
+        out[x] = inside[x] ? value : 0;
+    }
 }
 
 void MaskedGaussian::mean(const Field& field, Field& out) const {

@@ -16,7 +16,8 @@ using Eigen::Vector4d;
 
 constexpr int kChunk = 8192;  // values per task: sums are combined chunk by chunk, in order
 constexpr int kRowsPerTask = 32;
-constexpr double kNudge = 0.01;  // of light, to see what a change of it does to a picture
+constexpr Eigen::Index kRun = 256;  // values that are summed in single precision
+constexpr double kNudge = 0.01;     // of light, to see what a change of it does to a picture
 
 int rows_per_chunk(int width) {
     return std::max(1, kChunk / width);
@@ -65,27 +66,44 @@ AffineMoments affine_moments(const Image<SrgbF>& color, const Mask& moving,
         map_rows<AffineMoments>(color.height(), rows_per_chunk(color.width()), [&](RowRun run) {
             AffineMoments m;
             m.xd = MatrixXd::Zero(4, 3 * q);
+            // Row by row, so that a product of matrices does the work.
+            Eigen::Matrix<double, 4, Eigen::Dynamic> x(4, color.width());
+            MatrixXd d(color.width(), 3 * q);
             for (int y = run.begin; y < run.end; ++y) {
-                const std::size_t row = std::size_t(y) * std::size_t(color.width());
-                for (int x = 0; x < color.width(); ++x) {
-                    if (moving(x, y) == 0) continue;
-                    const SrgbF c = color(x, y);
-                    const Vector4d f{1, double(c.r), double(c.g), double(c.b)};
-                    m.xx += f * f.transpose();
-                    ++m.count;
-                    for (Eigen::Index i = 0; i < q; ++i)
-                        for (Eigen::Index k = 0; k < 3; ++k)
-                            m.xd.col(3 * i + k) +=
-                                f * double(increments[std::size_t(i)][std::size_t(k)]
-                                                     [row + std::size_t(x)]);
+                const SrgbF* colors = color.row(y);
+                const std::uint8_t* inside = moving.row(y);
+                for (Eigen::Index i = 0; i < color.width(); ++i) {
+                    const SrgbF c = colors[i];
+                    if (inside[i] == 0)
+                        x.col(i).setZero();
+                    else
+                        x.col(i) = Vector4d{1, double(c.r), double(c.g), double(c.b)};
                 }
+                for (Eigen::Index i = 0; i < 3 * q; ++i) {
+                    const Field& field = increments[std::size_t(i / 3)][std::size_t(i % 3)];
+                    d.col(i) = Eigen::Map<const Eigen::VectorXf>(
+                                   field.data() + std::size_t(y) * std::size_t(color.width()),
+                                   color.width())
+                                   .cast<double>();
+                }
+                m.xx += x * x.transpose();
+                m.xd.noalias() += x * d;
             }
+            m.count = m.xx(0, 0);
             return m;
         });
     AffineMoments all;
     all.xd = MatrixXd::Zero(4, 3 * q);
     for (const AffineMoments& m : parts) all.xx += m.xx, all.xd += m.xd, all.count += m.count;
     return all;
+}
+
+/// From the means over what moves, channel by channel.
+PartMoments from_grams(const std::array<MatrixXd, 3>& gram) {
+    const auto energy = [&](std::size_t k) {
+        return float(gram[k].trace() / double(gram[k].rows()));
+    };
+    return {(gram[0] + gram[1] + gram[2]) / 3, {energy(0), energy(1), energy(2)}};
 }
 
 /// Rows that `row(channel, y, out)` writes, as a field.
@@ -120,6 +138,7 @@ AffinePart::AffinePart(const Context& context, const Mask& moving, const Increme
     : ChangePart(moving), color_(mean_color(context.frames)) {
     const AffineMoments all = affine_moments(color_, moving, increments);
     // Centered, so that the ridge holds back the slopes and not the mean.
+    color_moments_ = all.xx / all.count;
     const Eigen::Vector3d mean = all.xx.block<3, 1>(1, 0) / all.count;
     const Eigen::Matrix3d spread = all.xx.block<3, 3>(1, 1) / all.count - mean * mean.transpose();
     const double sigma =
@@ -158,6 +177,15 @@ ColorField AffinePart::combined(const Eigen::RowVectorXd& weights) const {
     }
     return field_of(moving(),
                     [&](int k, int y, float* out) { row_of(fit[std::size_t(k)], y, out); });
+}
+
+PartMoments AffinePart::moments() const {
+    std::array<MatrixXd, 3> gram;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+        const MatrixXd fit = fit_(Eigen::all, Eigen::seqN(k, increments(), 3));
+        gram[std::size_t(k)] = fit.transpose() * color_moments_ * fit;
+    }
+    return from_grams(gram);
 }
 
 LightPart::LightPart(const Context& context, const Mask& moving, const Eigen::MatrixX3d& log_gains)
@@ -212,6 +240,29 @@ ColorField LightPart::combined(const Eigen::RowVectorXd& weights) const {
     return field_of(moving(), [&](int k, int y, float* out) { row_of(gain[k], k, y, out); });
 }
 
+PartMoments LightPart::moments() const {
+    std::array<double, 3> squares{};
+    double inside = 0;
+    for (int y = 0; y < slope_.height(); ++y) {
+        std::array<double, 3> of_row{};
+        for (int x = 0; x < slope_.width(); ++x) {
+            if (moving()(x, y) == 0) continue;
+            const SrgbF s = slope_(x, y);
+            of_row[0] += double(s.r) * double(s.r);
+            of_row[1] += double(s.g) * double(s.g);
+            of_row[2] += double(s.b) * double(s.b);
+            ++inside;
+        }
+        for (std::size_t k = 0; k < 3; ++k) squares[k] += of_row[k];
+    }
+    std::array<MatrixXd, 3> gram;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto gains = gains_.col(Eigen::Index(k));
+        gram[k] = squares[k] / std::max(inside, 1.0) * (gains * gains.transpose());
+    }
+    return from_grams(gram);
+}
+
 SmoothPart::SmoothPart(const Increments& increments, const Mask& moving, int sigma)
     : ChangePart(moving), gaussian_(moving, sigma), cells_(increments.size()) {
     parallel_for(3 * int(increments.size()), [&](int i) {
@@ -257,56 +308,50 @@ ColorField RestPart::combined(const Eigen::RowVectorXd& weights) const {
     });
 }
 
-PartMoments moments_of(const ChangePart& part) {
-    const Mask& moving = part.moving();
-    const int width = moving.width(), height = moving.height();
-    const auto q = Eigen::Index(part.increments());
+PartMoments ChangePart::moments() const {
+    const int width = moving_.width(), height = moving_.height();
+    const auto q = Eigen::Index(increments());
     const std::int64_t pixels = std::int64_t(width) * height;
     const int step = int(1 + (pixels - 1) / kMostMoments);
     struct Sums {
-        MatrixXd gram;
-        std::array<double, 3> squares{};
+        std::array<MatrixXd, 3> gram;
         double inside = 0;
     };
     const auto sums =
         map_rows<Sums>((height + step - 1) / step, rows_per_chunk(width), [&](RowRun run) {
             Sums s;
-            s.gram = MatrixXd::Zero(q, q);
-            // Rows of values in double: a product of matrices then does the work.
-            const auto count = Eigen::Index(run.end - run.begin) * width;
-            Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(q, count);
-            Field row(std::size_t(width), 0);
-            for (int y = run.begin; y < run.end; ++y)
-                for (int x = 0; x < width; ++x) s.inside += moving(x, y * step) != 0;
-            for (int k = 0; k < 3; ++k) {
-                for (Eigen::Index i = 0; i < q; ++i) {
-                    for (int y = run.begin; y < run.end; ++y) {
-                        part.row(int(i), k, y * step, row.data());
-                        double* to = values.row(i).data() + std::ptrdiff_t(y - run.begin) * width;
-                        for (int x = 0; x < width; ++x) to[x] = double(row[std::size_t(x)]);
+            s.gram.fill(MatrixXd::Zero(q, q));
+            // One row of all increments at a time: products of matrices do the work, and sums of
+            // more than kRun values are in double.
+            Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic> values(width, q), part(q, q);
+            for (int y = run.begin; y < run.end; ++y) {
+                for (int x = 0; x < width; ++x) s.inside += moving_(x, y * step) != 0;
+                for (int k = 0; k < 3; ++k) {
+                    for (Eigen::Index i = 0; i < q; ++i)
+                        row(int(i), k, y * step, values.col(i).data());
+                    for (Eigen::Index x = 0; x < width; x += kRun) {
+                        const auto here =
+                            values.middleRows(x, std::min<Eigen::Index>(kRun, width - x));
+                        part.setZero();
+                        part.selfadjointView<Eigen::Lower>().rankUpdate(here.transpose());
+                        s.gram[std::size_t(k)] += part.cast<double>();
                     }
                 }
-                const double before = s.gram.trace();
-                s.gram.selfadjointView<Eigen::Lower>().rankUpdate(values);
-                s.squares[std::size_t(k)] = s.gram.trace() - before;
             }
             return s;
         });
-    PartMoments out{MatrixXd::Zero(q, q), {}};
-    std::array<double, 3> squares{};
+    std::array<MatrixXd, 3> gram;
+    gram.fill(MatrixXd::Zero(q, q));
     double inside = 0;
     for (const Sums& s : sums) {
-        out.gram += s.gram;
         inside += s.inside;
-        for (std::size_t k = 0; k < 3; ++k) squares[k] += s.squares[k];
+        for (std::size_t k = 0; k < 3; ++k) gram[k] += s.gram[k];
     }
-    out.gram.triangularView<Eigen::StrictlyUpper>() = out.gram.transpose();
-    inside = std::max(inside, 1.0);
-    out.gram /= 3 * inside;
-    const double values = double(q) * inside;
-    out.energy = {float(squares[0] / values), float(squares[1] / values),
-                  float(squares[2] / values)};
-    return out;
+    for (MatrixXd& g : gram) {
+        g.triangularView<Eigen::StrictlyUpper>() = g.transpose();
+        g /= std::max(inside, 1.0);
+    }
+    return from_grams(gram);
 }
 
 }  // namespace verdigris

@@ -11,6 +11,12 @@
 
 namespace verdigris {
 
+/// Means over what moves and channels.
+struct PartMoments {
+    Eigen::MatrixXd gram;  ///< of the products of increments i and j
+    SrgbF energy;          ///< per channel, of the squares of all increments
+};
+
 class ChangePart {
   public:
     explicit ChangePart(const Mask& moving) : moving_(moving) {}
@@ -25,6 +31,10 @@ class ChangePart {
     /// Sum of weight * increment.
     virtual ColorField combined(const Eigen::RowVectorXd& weights) const = 0;
     void subtract(Increments& from) const;
+    /// From all rows, or of parts of more than kMostMoments pixels every second row, every third
+    /// ...; same bytes at any number of threads.
+    virtual PartMoments moments() const;
+    static constexpr std::int64_t kMostMoments = 300000;
 
   private:
     const Mask& moving_;
@@ -38,12 +48,14 @@ class AffinePart : public ChangePart {
     int increments() const override { return int(fit_.cols() / 3); }
     void row(int increment, int channel, int y, float* out) const override;
     ColorField combined(const Eigen::RowVectorXd& weights) const override;
+    PartMoments moments() const override;
 
   private:
     void row_of(const Eigen::Vector4d& fit, int y, float* out) const;
 
     Image<SrgbF> color_;
-    Eigen::MatrixXd fit_;  ///< [1 and red, green, blue x channels of increments]
+    Eigen::Matrix4d color_moments_;  ///< means of the products of 1 and red, green, blue
+    Eigen::MatrixXd fit_;            ///< [1 and red, green, blue x channels of increments]
 };
 
 /// Of each increment, what a gain of all light does to the mean picture.
@@ -56,6 +68,7 @@ class LightPart : public ChangePart {
     int increments() const override { return int(gains_.rows()); }
     void row(int increment, int channel, int y, float* out) const override;
     ColorField combined(const Eigen::RowVectorXd& weights) const override;
+    PartMoments moments() const override;
 
   private:
     void row_of(double gain, int channel, int y, float* out) const;
@@ -90,15 +103,5 @@ class RestPart : public ChangePart {
   private:
     const Increments& increments_;
 };
-
-/// Means over what moves and channels.
-struct PartMoments {
-    Eigen::MatrixXd gram;  ///< of the products of increments i and j
-    SrgbF energy;          ///< per channel, of the squares of all increments
-};
-/// In double, same bytes at any number of threads. Of parts of more than kMostMoments pixels, of
-/// every second row, every third ...
-inline constexpr std::int64_t kMostMoments = 300000;
-PartMoments moments_of(const ChangePart& part);
 
 }  // namespace verdigris

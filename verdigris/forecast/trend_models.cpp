@@ -31,9 +31,8 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     : increments_(increments), prior_(prior) {
     const int q = increments;
     const bool events = prior.event > 0;
-    for (int i = 0; events && i < q; ++i) events_.push_back({VectorXd::Unit(q, i), i + 1, false});
-    for (int i = 1; events && i < q; ++i)
-        events_.push_back({VectorXd::Unit(q, i - 1) - VectorXd::Unit(q, i), i, true});
+    for (int i = 0; events && i < q; ++i) events_.push_back({i, i + 1, false});
+    for (int i = 1; events && i < q; ++i) events_.push_back({i, i, true});
 
     const std::vector<Slowing> slowings =
         prior.slowing && prior.drift
@@ -52,7 +51,13 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     };
     const bool bending = prior.bending && prior.drift;
     const std::size_t wandering = prior.drift ? std::size(kWandering) : 1;  // the first: rho of 0
-    const double share = 1.0 / double(wandering + (bending ? std::size(kBending) : 0));
+    const std::size_t families = wandering + (bending ? std::size(kBending) : 0);
+    const std::size_t most = slowings.size() * families * noises.size() + 2;
+    models_.reserve(most);
+    precisions_.resize(q, Eigen::Index(most) * q);
+    log_determinants_.resize(Eigen::Index(most * variants()));
+    log_priors_.resize(log_determinants_.size());
+    const double share = 1.0 / double(families);
     for (const Slowing& slowing : slowings) {
         for (std::size_t i = 0; i < wandering; ++i)
             add_family(false, kWandering[i], slowing, share);
@@ -61,61 +66,93 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     }
     add({TrendShape::walk}, walk_moments(q), kWalk);
     if (prior.noise) add({TrendShape::level, false, 0, 0, 1}, level_moments(q), prior.level);
+    const auto made = Eigen::Index(models_.size());
+    precisions_.conservativeResize(q, made * q);
+    log_determinants_.conservativeResize(made * Eigen::Index(variants()));
+    log_priors_.conservativeResize(made * Eigen::Index(variants()));
+}
+
+std::size_t TrendModels::variants() const {
+    return 1 + events_.size() * std::size(kEventSize);
+}
+
+VectorXd TrendModels::along(const Eigen::Ref<const MatrixXd>& matrix, const Event& event) {
+    if (event.outlier) return matrix.col(event.increment - 1) - matrix.col(event.increment);
+    return matrix.col(event.increment);
+}
+
+Eigen::Ref<const MatrixXd> TrendModels::precision(std::size_t model) const {
+    return precisions_.middleCols(Eigen::Index(model) * increments_, increments_);
 }
 
 void TrendModels::add(const TrendKind& kind, const TrendMoments& moments, double prior) {
+    const std::size_t at = models_.size();
     const Eigen::LLT<MatrixXd> cholesky(moments.covariance);
+    const MatrixXd precision = cholesky.solve(MatrixXd::Identity(increments_, increments_));
+    precisions_.middleCols(Eigen::Index(at) * increments_, increments_) = precision;
+    const double log_determinant = 2 * cholesky.matrixLLT().diagonal().array().log().sum();
     Model m;
     m.kind = kind;
-    m.precision = cholesky.solve(MatrixXd::Identity(increments_, increments_));
-    m.log_determinant = 2 * cholesky.matrixLLT().diagonal().array().log().sum();
-    m.weights = moments.with_future * m.precision;
+    m.weights = moments.with_future * precision;
     m.unexplained =
         (moments.future - m.weights.cwiseProduct(moments.with_future).rowwise().sum()).cwiseMax(0);
-    m.log_prior = std::log(prior);
-    m.at_events.resize(increments_, Eigen::Index(events_.size()));
     m.of_events.resize(Eigen::Index(events_.size()));
-    m.log_denominators.resize(events_.size());
+    const double log_event =
+        std::log(std::max(prior_.event, 1e-300) / double(std::size(kEventSize)));
+    auto k = Eigen::Index(at * variants());
+    const auto add_variant = [&](double determinant, double log_prior) {
+        log_determinants_[k] = log_determinant + determinant;
+        log_priors_[k++] = std::log(prior) + log_prior;
+    };
+    add_variant(0, 0);
     for (std::size_t e = 0; e < events_.size(); ++e) {
-        m.at_events.col(Eigen::Index(e)) = m.precision * events_[e].direction;
-        m.of_events[Eigen::Index(e)] = events_[e].direction.dot(m.at_events.col(Eigen::Index(e)));
-        for (std::size_t i = 0; i < std::size(kEventSize); ++i)
-            m.log_denominators[e][i] = std::log1p(kEventSize[i] * m.of_events[Eigen::Index(e)]);
+        const VectorXd here = along(precision, events_[e]);
+        const Eigen::Index i = events_[e].increment;
+        const double of = events_[e].outlier ? here[i - 1] - here[i] : here[i];
+        m.of_events[Eigen::Index(e)] = of;
+        for (const double tau : kEventSize) add_variant(std::log1p(tau * of), log_event);
     }
     models_.push_back(std::move(m));
+}
+
+MatrixXd TrendModels::seen_by_events(const MatrixXd& gram) const {
+    MatrixXd seen(Eigen::Index(events_.size()), Eigen::Index(models_.size()));
+    if (events_.empty()) return seen;
+    const MatrixXd with_gram = gram * precisions_;
+    VectorXd beside(increments_);
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+        const auto at = Eigen::Index(m) * increments_;
+        const auto p = precisions_.middleCols(at, increments_);
+        const auto pg = with_gram.middleCols(at, increments_);
+        auto out = seen.col(Eigen::Index(m));
+        for (Eigen::Index i = 0; i < increments_; ++i) out[i] = p.col(i).dot(pg.col(i));
+        for (Eigen::Index i = 1; i < increments_; ++i)
+            out[increments_ + i - 1] = out[i - 1] + out[i] - 2 * p.col(i - 1).dot(pg.col(i));
+    }
+    return seen;
 }
 
 Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     const double q = increments_, scale = std::max(gram.trace() / q, 1e-30);
     const MatrixXd g = gram / scale;  // no underflow, whatever the unit
-    const std::size_t sizes = std::size(kEventSize), events = events_.size();
-    const double log_event = std::log(std::max(prior_.event, 1e-300) / double(sizes));
+    const std::size_t events = events_.size();
     // Of a model, and of it with each event at each size (Sherman and Morrison 1950).
-    std::vector<double> evidence, seen_by_event;
-    evidence.reserve(models_.size() * (1 + events * sizes));
-    seen_by_event.reserve(models_.size() * events);
-    const auto log_evidence = [&](double variance, double log_determinant) {
-        return -0.5 * count * (q * std::log(std::max(variance, 1e-12)) + log_determinant);
-    };
-    MatrixXd at_gram(increments_, Eigen::Index(events));
-    for (const Model& m : models_) {
-        const double all = (m.precision.array() * g.array()).sum();
-        evidence.push_back(log_evidence(all / q, m.log_determinant) + m.log_prior);
-        at_gram.noalias() = g * m.at_events;
-        for (std::size_t e = 0; e < events; ++e) {
-            const auto column = Eigen::Index(e);
-            const double seen = m.at_events.col(column).dot(at_gram.col(column));
-            const double of = m.of_events[column];
-            seen_by_event.push_back(seen);
-            for (std::size_t i = 0; i < sizes; ++i) {
-                const double tau = kEventSize[i], denominator = 1 + tau * of;
-                evidence.push_back(log_evidence((all - tau * seen / denominator) / q,
-                                                m.log_determinant + m.log_denominators[e][i]) +
-                                   m.log_prior + log_event);
-            }
-        }
+    const MatrixXd seen_by_event = seen_by_events(g);
+    VectorXd alone(Eigen::Index(models_.size()));
+    Eigen::ArrayXd evidence(log_priors_.size());  // the sum of squares first
+    for (std::size_t i = 0, k = 0; i < models_.size(); ++i) {
+        const auto m = Eigen::Index(i);
+        const VectorXd& of_events = models_[i].of_events;
+        const double all = alone[m] = precision(i).cwiseProduct(g).sum();
+        evidence[Eigen::Index(k++)] = all;
+        for (Eigen::Index e = 0; e < Eigen::Index(events); ++e)
+            for (const double tau : kEventSize)
+                evidence[Eigen::Index(k++)] =
+                    all - tau * seen_by_event(e, m) / (1 + tau * of_events[e]);
     }
-    const double best = *std::max_element(evidence.begin(), evidence.end());
+    evidence =
+        -0.5 * count * (q * (evidence / q).max(1e-12).log() + log_determinants_) + log_priors_;
+    const double best = evidence.maxCoeff();
     double total = 0;
     // Most are out of the question, and an exponential of them costs as much as any.
     for (double& e : evidence) total += e = e < best - 60 ? 0 : std::exp(e - best);
@@ -128,33 +165,30 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     out.weights = MatrixXd::Zero(units, increments_);
     VectorXd square = VectorXd::Zero(units), left = VectorXd::Zero(units);
     std::vector<double> of_event(events, 0);
-    std::size_t k = 0, k_seen = 0;
-    for (const Model& m : models_) {
-        const auto from = evidence.begin() + std::ptrdiff_t(k);
-        const auto to = from + std::ptrdiff_t(1 + events * sizes);
-        if (std::all_of(from, to, [&](double e) { return e < kNegligible * total; })) {
-            k += 1 + events * sizes;
-            k_seen += events;
-            continue;
-        }
-        const double all = (m.precision.array() * g.array()).sum();
+    for (std::size_t i = 0; i < models_.size(); ++i) {
+        const Model& m = models_[i];
+        const auto of_variants = Eigen::Index(variants());
+        const auto here = evidence.segment(Eigen::Index(i) * of_variants, of_variants) / total;
+        if ((here < kNegligible).all()) continue;
+        const double all = alone[Eigen::Index(i)];
         const MatrixXd with_gram = m.weights * g;
         const VectorXd plain = with_gram.cwiseProduct(m.weights).rowwise().sum();
-        double of_model = evidence[k++] / total, variance = of_model * all / q;
+        Eigen::Index k = 0;
+        double of_model = here[k++], variance = of_model * all / q;
         if (of_model > kNegligible) {
             square += of_model * plain;
             left += of_model * all / q * m.unexplained;
         }
         for (std::size_t e = 0; e < events; ++e) {
             const auto column = Eigen::Index(e);
-            const double seen = seen_by_event[k_seen++];
+            const double seen = seen_by_event(column, Eigen::Index(i));
             for (const double tau : kEventSize) {
-                const double p = evidence[k++] / total;
+                const double p = here[k++];
                 if (p < kNegligible) continue;
                 of_model += p;
                 of_event[e] += p;
-                const auto at = m.at_events.col(column);
-                const VectorXd toward = m.weights * events_[e].direction;
+                const VectorXd at = along(precision(i), events_[e]);
+                const VectorXd toward = along(m.weights, events_[e]);
                 const double share = tau / (1 + tau * m.of_events[column]);
                 out.weights -= (p * share) * toward * at.transpose();
                 square += p * (plain - 2 * share * toward.cwiseProduct(with_gram * at) +
