@@ -90,10 +90,9 @@ expect 2 "avi" "$verdigris" simulate "${small[@]}" -o "$scratch/bad/x.avi"
 expect_nothing "$scratch/bad"
 
 # Interrupted: nothing half-written.
-"$verdigris" simulate -o "$scratch/bad/long.mp4" --truth "$scratch/bad/truth" --quiet &
-sleep 1
-kill -INT $! 2>/dev/null || true
-wait $! && fail "an interrupted simulation ended well" || status=$?
+status=0
+timeout --foreground --preserve-status -s INT 1 "$verdigris" simulate -o "$scratch/bad/long.mp4" \
+  --truth "$scratch/bad/truth" --quiet || status=$?
 [ "$status" -eq 130 ] || fail "status $status instead of 130 after an interrupt"
 expect_nothing "$scratch/bad"
 finish
