@@ -28,14 +28,14 @@ constexpr std::array kMore{5., 7., 10., 15., 20., 30., 50., 70., 100., 150., 200
 class Outlook {
   public:
     Outlook(const Components& components, int increments, double recorded, double doubt)
-        : increments_(increments), recorded_(recorded), doubt_(doubt) {
+        : increments_(increments), recorded_(recorded), models_(doubt) {
         for (const Component& c : components.all) {
             const double told = (c.trend.error + withheld(c)).head(kOutlookUnits).mean();
             if (c.light) {
                 light_ += told;
                 continue;
             }
-            const double known = expected_error(c.trend, doubt, {increments, 0, 1});
+            const double known = models_.expected_error(c.trend, {increments, 0, 1});
             parts_.push_back({&c.trend, std::max(0.0, told - frame_noise(c.trend) - known)});
         }
     }
@@ -43,17 +43,17 @@ class Outlook {
     /// in trials that was closer than any fall of it (docs/RESULTS.md, capture advice).
     double light() const { return light_; }
     /// Of all else, where nothing of it was for want of frames or for their noise.
-    double unforeseen() const { return known({kLongestContext - 1, 0, 0}); }
+    double unforeseen() { return known({kLongestContext - 1, 0, 0}); }
     /// Of everything. What is not sure yet becomes so as the variance of a mean does. Later on
     /// there is less change to miss: half as the models saw it slow down, half as layers that grow
     /// by diffusion through themselves do, with the square root of their age. Either alone was
     /// farther off on seed 701 of the simulated presets and on real copper and clay.
-    double error(const Circumstances& c) const {
+    double error(const Circumstances& c) {
         const double aged = recorded_ / (recorded_ + c.later);
         double sum = light_;
         for (const Part& p : parts_) {
-            const double now = expected_error(*p.trend, doubt_, {c.increments, 0, c.noise});
-            const double then = expected_error(*p.trend, doubt_, c);
+            const double now = models_.expected_error(*p.trend, {c.increments, 0, c.noise});
+            const double then = models_.expected_error(*p.trend, c);
             const double slowed = now > 0 ? std::sqrt(then / now * aged) : 1;
             sum += slowed * (now + p.unsure * increments_ / c.increments);
         }
@@ -65,15 +65,16 @@ class Outlook {
         const Trend* trend;
         double unsure;  ///< of its error, what its likely models do not say of themselves
     };
-    double known(const Circumstances& c) const {
+    double known(const Circumstances& c) {
         double sum = 0;
-        for (const Part& p : parts_) sum += expected_error(*p.trend, doubt_, c);
+        for (const Part& p : parts_) sum += models_.expected_error(*p.trend, c);
         return sum;
     }
     std::vector<Part> parts_;
     double light_ = 0;
     int increments_;
-    double recorded_, doubt_;
+    double recorded_;
+    TrendOutlook models_;
 };
 
 std::string count(double n, const char* what) {
@@ -188,7 +189,7 @@ CaptureAdvice capture_advice(const RecentUnits& recent) {
     const auto increments_at = [&](double more) {
         return std::max(seen, std::min(int(recent.units + more), kLongestContext) - 1);
     };
-    const Outlook outlook(components, seen, recent.units, method.design.prior.doubt);
+    Outlook outlook(components, seen, recent.units, method.design.prior.doubt);
     // One frame was looked at where a forecast averages several.
     const double noise = 1 / recent.frames_per_sample;
     const auto error_at = [&](double more, double less_noise) {

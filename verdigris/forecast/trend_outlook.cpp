@@ -19,24 +19,27 @@ double error_left(const TrendMoments& m, double eta) {
     return sum / kOutlookUnits;
 }
 
-double error_of(const TrendKind& kind, double doubt, const Circumstances& c) {
+}  // namespace
+
+double TrendOutlook::error_of(const TrendKind& kind, const Circumstances& c) {
     if (kind.shape == TrendShape::walk) return error_left(walk_moments(c.increments), 0);
     if (kind.shape == TrendShape::level) {
         const double eta = std::max(c.noise, 1e-6);
         return error_left(level_moments(c.increments, eta), eta);
     }
+    const auto [at, is_new] =
+        drifts_.try_emplace({kind.bending, kind.rho, kind.kappa, c.increments});
+    if (is_new) at->second = drift_moments(kind, c.increments, doubt_);
     // What slows down is smaller later on, and noise is not.
     const double size = std::exp(-2 * kind.kappa * c.later);
     const double eta = kind.eta * c.noise / size;
-    return size * error_left(with_noise(drift_moments(kind, c.increments, doubt), eta), eta);
+    return size * error_left(with_noise(at->second, eta), eta);
 }
 
-}  // namespace
-
-double expected_error(const Trend& trend, double doubt, const Circumstances& circumstances) {
+double TrendOutlook::expected_error(const Trend& trend, const Circumstances& circumstances) {
     double sum = 0, weight = 0;
     for (const LikelyKind& likely : trend.likely) {
-        sum += likely.probability * likely.variance * error_of(likely.kind, doubt, circumstances);
+        sum += likely.probability * likely.variance * error_of(likely.kind, circumstances);
         weight += likely.probability;
     }
     return weight > 0 ? sum / weight : 0;

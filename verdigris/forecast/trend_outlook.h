@@ -3,6 +3,9 @@
 // likely models say, each of itself (internal).
 #pragma once
 
+#include <map>
+#include <tuple>
+
 #include "verdigris/forecast/trend_models.h"
 
 namespace verdigris {
@@ -16,10 +19,23 @@ struct Circumstances {
     double noise = 1;    ///< of a frame, in variance; 0: none
 };
 
-/// Mean square error over the next kOutlookUnits, in the unit of the gram that the trend was made
-/// of, less the noise of the frames it is compared with, if its likely models were the only ones
-/// and known. What the models disagree about is not in it, nor steps and outliers.
-double expected_error(const Trend& trend, double doubt, const Circumstances& circumstances);
+/// Keeps the moments of each drift that it was asked for: they cost more than all else.
+class TrendOutlook {
+  public:
+    /// `doubt`: see TrendPrior.
+    explicit TrendOutlook(double doubt) : doubt_(doubt) {}
+
+    /// Mean square error over the next kOutlookUnits, in the unit of the gram that the trend was
+    /// made of, less the noise of the frames it is compared with, if its likely models were the
+    /// only ones and known. What the models disagree about is not in it, nor steps and outliers.
+    double expected_error(const Trend& trend, const Circumstances& circumstances);
+
+  private:
+    double error_of(const TrendKind& kind, const Circumstances& c);
+
+    double doubt_;
+    std::map<std::tuple<bool, double, double, int>, DriftMoments> drifts_;
+};
 
 /// Variance of the noise of one frame, as the likely models have it, in the same unit.
 double frame_noise(const Trend& trend);

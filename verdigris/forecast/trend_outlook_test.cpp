@@ -33,6 +33,10 @@ double of_a_line(int n, double sigma2) {
     return sum / kOutlookUnits;
 }
 
+double expected_error(const Trend& trend, double doubt, const Circumstances& circumstances) {
+    return TrendOutlook(doubt).expected_error(trend, circumstances);
+}
+
 /// A steady pace of variance 1 may all the same be another one after a while: that no recording
 /// tells (docs/models/bandtrend.md, how far off it may be).
 double of_a_new_pace() {
