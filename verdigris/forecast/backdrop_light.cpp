@@ -15,19 +15,46 @@ namespace {
 
 constexpr std::int64_t kFewestPixels = 200;  // chosen: a median of fewer is noise
 constexpr std::int64_t kMostPixels = 20000;  // chosen: more say little more
-constexpr float kDarkest = 0.002f;           // linear; chosen: darker ratios are noise
+// Encoded. chosen: L* 8, as where the reference region is looked for: darker ratios are noise; and
+// of a single channel of a colored backdrop, less will do.
+constexpr float kDarkest = 0.094f, kDarkestChannel = 0.026f;
+// Linear, added to both sides of a ratio: none is infinite, and the median of noise stays 1.
+constexpr float kFloor = 1e-4f;
+// chosen: of the shorter side, kept from the specimen: the least that the reference region keeps.
+// The edge of a mask is off by a pixel or two, and what it leaves out ages.
+constexpr double kDistance = 0.015;
 constexpr std::int64_t kGlance = 2000;
 constexpr double kGray = 1.0 / 7;  // chosen
 constexpr int kTable = 1024;
 
-/// What is said to be backdrop, or else what is not specimen.
+/// `out` is 1 where any of `in` within `reach` is not 0; `count` values, `stride` apart.
+void grow(const std::uint8_t* in, std::uint8_t* out, int count, int stride, int reach) {
+    int last = -reach - 1, next = 0;  // the nearest before, and where to look on for one after
+    for (int i = 0; i < count; ++i) {
+        for (; next < std::min(i + reach + 1, count); ++next)
+            if (in[std::ptrdiff_t(next) * stride] != 0) last = next;
+        out[std::ptrdiff_t(i) * stride] = last >= i - reach;
+    }
+}
+
+/// What is said to be backdrop, or else what is not specimen, at some distance from the rest.
 Mask backdrop(const Context& context) {
-    Mask mask = fit_mask(context, FitPixels::all);
     const bool said = !context.backdrop.empty();
-    const auto known = said ? context.backdrop.pixels() : context.specimen.pixels();
-    const auto out = mask.pixels();
-    for (std::size_t i = 0; i < out.size(); ++i)
-        if ((known[i] != 0) != said) out[i] = 0;
+    const Mask& known = said ? context.backdrop : context.specimen;
+    const int width = known.width(), height = known.height();
+    const int reach = int(std::ceil(kDistance * std::min(width, height)));
+    Mask other(width, height), across(width, height);
+    for (std::size_t i = 0; i < other.pixels().size(); ++i)
+        other.pixels()[i] = (known.pixels()[i] != 0) != said;
+    parallel_rows(height, 32, [&](RowRun run) {
+        for (int y = run.begin; y < run.end; ++y)
+            grow(other.row(y), across.row(y), width, 1, reach);
+    });
+    parallel_for(width,
+                 [&](int x) { grow(across.row(0) + x, other.row(0) + x, height, width, reach); });
+    Mask mask = fit_mask(context, FitPixels::all);
+    for (std::size_t i = 0; i < mask.pixels().size(); ++i)
+        if (other.pixels()[i] != 0) mask.pixels()[i] = 0;
     return mask;
 }
 
@@ -35,22 +62,49 @@ float channel(const SrgbF& c, int k) {
     return k == 0 ? c.r : k == 1 ? c.g : c.b;
 }
 
-LightGains median_light(const Context& context, const std::vector<std::size_t>& pixels) {
+/// Mean over frames: to ask a single frame would prefer the pixels that its noise made brighter.
+SrgbF mean_at(const Context& context, std::size_t at) {
+    SrgbF sum{};
+    for (const Image<SrgbF>& frame : context.frames) {
+        const SrgbF c = frame.pixels()[at];
+        sum = {sum.r + c.r, sum.g + c.g, sum.b + c.b};
+    }
+    const float share = 1 / float(context.frames.size());
+    return {share * sum.r, share * sum.g, share * sum.b};
+}
+
+/// Some of the pixels inside a mask, those that are too dark left out.
+std::vector<std::size_t> lit_pixels(const Context& context, const Mask& inside) {
+    std::vector<std::size_t> pixels = sample_inside(inside, kMostPixels);
+    std::erase_if(pixels, [&](std::size_t at) {
+        const SrgbF c = mean_at(context, at);
+        return c.r + c.g + c.b < 3 * kDarkest;
+    });
+    return pixels;
+}
+
+LightGains median_light(const Context& context, const std::vector<std::size_t>& sampled) {
     LightGains light(context.frames.size(), {1, 1, 1});
-    const auto linear = [&](const Image<SrgbF>& frame, int k, std::vector<float>& out) {
-        out.clear();
-        for (const std::size_t at : pixels)
-            out.push_back(linear_from_srgb(channel(frame.pixels()[at], k)));
+    std::array<std::vector<std::size_t>, 3> pixels;
+    for (const std::size_t at : sampled) {
+        const SrgbF c = mean_at(context, at);
+        for (int k = 0; k < 3; ++k)
+            if (channel(c, k) > kDarkestChannel) pixels[std::size_t(k)].push_back(at);
+    }
+    const auto linear = [&](const Image<SrgbF>& frame, std::size_t k) {
+        std::vector<float> out;
+        for (const std::size_t at : pixels[k])
+            out.push_back(kFloor + linear_from_srgb(channel(frame.pixels()[at], int(k))));
+        return out;
     };
     std::array<std::vector<float>, 3> last;
-    parallel_for(3, [&](int k) { linear(context.frames.back(), k, last[std::size_t(k)]); });
+    parallel_for(
+        3, [&](int k) { last[std::size_t(k)] = linear(context.frames.back(), std::size_t(k)); });
     parallel_for(3 * (int(context.frames.size()) - 1), [&](int job) {
         const auto i = std::size_t(job / 3), k = std::size_t(job % 3);
-        std::vector<float> before, ratios;
-        linear(context.frames[i], int(k), before);
-        for (std::size_t at = 0; at < before.size(); ++at)
-            if (before[at] > kDarkest) ratios.push_back(last[k][at] / before[at]);
-        if (std::int64_t(ratios.size()) < kFewestPixels) return;
+        if (std::int64_t(pixels[k].size()) < kFewestPixels) return;
+        std::vector<float> ratios = linear(context.frames[i], k);
+        for (std::size_t at = 0; at < ratios.size(); ++at) ratios[at] = last[k][at] / ratios[at];
         const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
         std::nth_element(ratios.begin(), middle, ratios.end());
         if (*middle > 0) light[i][k] = double(*middle);
@@ -90,13 +144,13 @@ bool explains_all(const Context& context, const LightGains& light, const Mask& i
 
 bool shows_light(const Context& context) {
     if (context.specimen.empty() && context.backdrop.empty()) return false;
-    return std::int64_t(sample_inside(backdrop(context), kMostPixels).size()) >= kFewestPixels;
+    return std::int64_t(lit_pixels(context, backdrop(context)).size()) >= kFewestPixels;
 }
 
 LightGains backdrop_light(const Context& context) {
     const LightGains none(context.frames.size(), {1, 1, 1});
     if (!context.specimen.empty() || !context.backdrop.empty()) {
-        const auto pixels = sample_inside(backdrop(context), kMostPixels);
+        const auto pixels = lit_pixels(context, backdrop(context));
         if (std::int64_t(pixels.size()) >= kFewestPixels) return median_light(context, pixels);
     }
     const Mask all = fit_mask(context, FitPixels::all);

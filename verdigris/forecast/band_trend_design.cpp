@@ -39,7 +39,7 @@ BandTrendDesign band_trend_design(const std::string& text) {
         {"relight", &d.relight},       {"global", &d.global},
         {"local", &d.local},           {"bands", &d.bands},
         {"slowing", &d.prior.slowing}, {"bending", &d.prior.bending},
-        {"noise", &d.prior.noise}};
+        {"swing", &d.prior.swing},     {"noise", &d.prior.noise}};
     struct Number {
         double* value;
         double least;

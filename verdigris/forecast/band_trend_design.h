@@ -12,6 +12,7 @@ struct TrendPrior {
     bool drift = true;    ///< change that goes on; else only levels that wander, and noise
     bool slowing = true;  ///< drifts that slow down
     bool bending = true;  ///< drifts that bend smoothly, beside those that wander
+    bool swing = true;    ///< drifts that swing to and fro, as day and night have it
     bool noise = true;    ///< frames with white noise
     double event = 0.02;  ///< of a step or an outlier, at each place it can have; 0: none
     double level = 0.1;   ///< of frames that are one level and noise
@@ -34,9 +35,9 @@ struct BandTrendDesign {
 };
 
 /// For ablations: "" is the method as it is; ":bands=0:confidence=0.5" differs in what is named.
-/// Keys: light, relight, gray, global, local, bands, slowing, bending, noise (0 or 1); events,
-/// doubt, confidence, level, global-count, band-count (numbers of 0 and more; counts of 1 and
-/// more). Throws Error{usage} naming the key.
+/// Keys: light, relight, gray, global, local, bands, slowing, bending, swing, noise (0 or 1);
+/// events, doubt, confidence, level, global-count, band-count (numbers of 0 and more; counts of 1
+/// and more). Throws Error{usage} naming the key.
 BandTrendDesign band_trend_design(const std::string& text);
 
 }  // namespace verdigris

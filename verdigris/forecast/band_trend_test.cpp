@@ -361,22 +361,5 @@ TEST(BandTrend, ALongContextCountsFromItsEnd) {
     EXPECT_LT(relative_error(scene, context), 0.5);
 }
 
-TEST(BackdropLight, IsFoundThoughAMinorityMoves) {
-    Context c;
-    c.specimen = plate_mask();
-    for (const double gain : {0.8, 1.1, 1.0}) {
-        Image<SrgbF> frame = relit(plate(0), {gain, 1.02 * gain, 0.97 * gain});
-        if (gain > 1)
-            for (int y = 0; y < 20; ++y)
-                for (int x = 0; x < 10; ++x) frame(x, y) = {0.9f, 0.1f, 0.1f};
-        c.frames.push_back(std::move(frame));
-    }
-    const auto light = backdrop_light(c);
-    EXPECT_NEAR(light[0][0], 1 / 0.8, 2e-3);
-    EXPECT_NEAR(light[1][1], 1 / 1.1, 2e-3);
-    EXPECT_EQ(light[2][2], 1);
-    EXPECT_LT(largest_difference(relit(c.frames[0], light[0]), c.frames[2]), 1e-3);
-}
-
 }  // namespace
 }  // namespace verdigris

@@ -2,13 +2,17 @@
 #include "verdigris/forecast/trend_models.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 namespace verdigris {
 namespace {
 
+using Eigen::Matrix2d;
+using Eigen::MatrixX2d;
 using Eigen::MatrixXd;
+using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 // The grid. chosen: coarse steps over all that is plausible; finer ones change forecasts by less
@@ -19,20 +23,23 @@ struct Slowing {
 constexpr Slowing kSlowing[] = {{0, .15}, {.02, .20}, {.05, .25}, {.1, .20}, {.2, .12}, {.5, .08}};
 constexpr double kWandering[] = {0, .3, .6, .8, .92, .98, 1};
 constexpr double kBending[] = {.5, .75, .85, .92, .96, .99};
+// Swings: frequencies as far apart as ten frames tell them, from a period of 20 units to one of 3.
+constexpr double kFrequency[] = {.05, .085, .12, .155, .19, .225, .26, .295, .33};
+constexpr double kSwinging = .95, kSwing = .1;  // rho; prior weight of all of them
 constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
 constexpr double kWalk = .1;                     // and of a level that walks at random
 constexpr double kNegligible = 1e-9;             // weight of a model
 constexpr double kUnlikely = 1e-3;               // of one that is not told of
 constexpr double kEventSize[] = {10, 1e3, 1e5};  // variance, of V
+// Increments. With fewer, a swing or a step half-way would stand for any change at all.
+constexpr int kFewestForRare = 4;
 
 }  // namespace
 
 TrendModels::TrendModels(int increments, const TrendPrior& prior)
     : increments_(increments), prior_(prior) {
     const int q = increments;
-    const bool events = prior.event > 0;
-    for (int i = 0; events && i < q; ++i) events_.push_back({i, i + 1, false});
-    for (int i = 1; events && i < q; ++i) events_.push_back({i, i, true});
+    if (prior.event > 0) add_events();
 
     const std::vector<Slowing> slowings =
         prior.slowing && prior.drift
@@ -41,18 +48,19 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     const std::vector<double> noises =
         prior.noise ? std::vector<double>(std::begin(kNoise), std::end(kNoise))
                     : std::vector<double>{0};
-    const auto add_family = [&](bool bends, double rho, const Slowing& slowing, double weight) {
-        TrendKind kind{TrendShape::drift, bends, rho, slowing.kappa};
+    const auto add_family = [&](TrendKind kind, double weight) {
         const DriftMoments drift = drift_moments(kind, q, prior.doubt);
         for (const double eta : noises) {
             kind.eta = eta;
-            add(kind, with_noise(drift, eta), weight * slowing.prior / double(noises.size()));
+            add(kind, with_noise(drift, eta), weight / double(noises.size()));
         }
     };
-    const bool bending = prior.bending && prior.drift;
+    const bool bending = prior.bending && prior.drift,
+               swing = prior.swing && prior.drift && q >= kFewestForRare;
     const std::size_t wandering = prior.drift ? std::size(kWandering) : 1;  // the first: rho of 0
     const std::size_t families = wandering + (bending ? std::size(kBending) : 0);
-    const std::size_t most = slowings.size() * families * noises.size() + 2;
+    const std::size_t most =
+        slowings.size() * families * noises.size() + std::size(kFrequency) * noises.size() + 2;
     models_.reserve(most);
     precisions_.resize(q, Eigen::Index(most) * q);
     log_determinants_.resize(Eigen::Index(most * variants()));
@@ -60,9 +68,16 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     const double share = 1.0 / double(families);
     for (const Slowing& slowing : slowings) {
         for (std::size_t i = 0; i < wandering; ++i)
-            add_family(false, kWandering[i], slowing, share);
+            add_family({TrendShape::drift, false, kWandering[i], slowing.kappa},
+                       share * slowing.prior);
         if (!bending) continue;
-        for (const double rho : kBending) add_family(true, rho, slowing, share);
+        for (const double rho : kBending)
+            add_family({TrendShape::drift, true, rho, slowing.kappa}, share * slowing.prior);
+    }
+    for (std::size_t i = 0; swing && i < std::size(kFrequency); ++i) {
+        TrendKind kind{TrendShape::drift, false, kSwinging};
+        kind.period = 1 / kFrequency[i];
+        add_family(kind, kSwing / double(std::size(kFrequency)));
     }
     add({TrendShape::walk}, walk_moments(q), kWalk);
     if (prior.noise) add({TrendShape::level, false, 0, 0, 1}, level_moments(q), prior.level);
@@ -76,9 +91,27 @@ std::size_t TrendModels::variants() const {
     return 1 + events_.size() * std::size(kEventSize);
 }
 
-VectorXd TrendModels::along(const Eigen::Ref<const MatrixXd>& matrix, const Event& event) {
-    if (event.outlier) return matrix.col(event.increment - 1) - matrix.col(event.increment);
-    return matrix.col(event.increment);
+void TrendModels::add_events() {
+    const int q = increments_;
+    // A frame is a mean over its unit, and a step within it shows half-way, whichever half.
+    const bool halfway = q >= kFewestForRare;
+    const double step = halfway ? prior_.event / 2 : prior_.event;
+    for (int i = 0; i < q; ++i) {
+        const int a = std::max(0, i - 1), b = std::min(a + 1, q - 1);
+        const Vector2d which(i == a ? 1 : 0, i == a ? 0 : 1);
+        events_.push_back({a, b, which.asDiagonal(), step, i + 1, false});
+    }
+    for (int i = 1; i < q; ++i) {
+        const Matrix2d there_and_back{{1, -1}, {-1, 1}};
+        events_.push_back({i - 1, i, there_and_back, prior_.event, i, true});
+        if (halfway) events_.push_back({i - 1, i, Matrix2d::Identity(), step, i + 1, false});
+    }
+}
+
+MatrixX2d TrendModels::touched(const Eigen::Ref<const MatrixXd>& matrix, const Event& event) {
+    MatrixX2d out(matrix.rows(), 2);
+    out << matrix.col(event.a), matrix.col(event.b);
+    return out;
 }
 
 Eigen::Ref<const MatrixXd> TrendModels::precision(std::size_t model) const {
@@ -96,66 +129,75 @@ void TrendModels::add(const TrendKind& kind, const TrendMoments& moments, double
     m.weights = moments.with_future * precision;
     m.unexplained =
         (moments.future - m.weights.cwiseProduct(moments.with_future).rowwise().sum()).cwiseMax(0);
-    m.of_events.resize(Eigen::Index(events_.size()));
-    const double log_event =
-        std::log(std::max(prior_.event, 1e-300) / double(std::size(kEventSize)));
     auto k = Eigen::Index(at * variants());
     const auto add_variant = [&](double determinant, double log_prior) {
         log_determinants_[k] = log_determinant + determinant;
         log_priors_[k++] = std::log(prior) + log_prior;
     };
     add_variant(0, 0);
-    for (std::size_t e = 0; e < events_.size(); ++e) {
-        const VectorXd here = along(precision, events_[e]);
-        const Eigen::Index i = events_[e].increment;
-        const double of = events_[e].outlier ? here[i - 1] - here[i] : here[i];
-        m.of_events[Eigen::Index(e)] = of;
-        for (const double tau : kEventSize) add_variant(std::log1p(tau * of), log_event);
+    for (const Event& e : events_) {
+        const double log_event = std::log(e.prior / double(std::size(kEventSize)));
+        const Matrix2d here{{precision(e.a, e.a), precision(e.a, e.b)},
+                            {precision(e.a, e.b), precision(e.b, e.b)}};
+        for (const double tau : kEventSize) {
+            // Woodbury's identity, of a covariance that may be singular.
+            const Matrix2d covariance = tau * e.shape;
+            const Matrix2d within = Matrix2d::Identity() + covariance * here;
+            const Matrix2d share = within.inverse() * covariance;
+            m.shares.push_back(0.5 * (share + share.transpose()));
+            add_variant(std::log(within.determinant()), log_event);
+        }
     }
     models_.push_back(std::move(m));
 }
 
-MatrixXd TrendModels::seen_by_events(const MatrixXd& gram) const {
-    MatrixXd seen(Eigen::Index(events_.size()), Eigen::Index(models_.size()));
-    if (events_.empty()) return seen;
+MatrixXd TrendModels::seen(const MatrixXd& gram) const {
+    MatrixXd out = MatrixXd::Zero(increments_, 2 * Eigen::Index(models_.size()));
+    if (events_.empty()) return out;
     const MatrixXd with_gram = gram * precisions_;
-    VectorXd beside(increments_);
     for (std::size_t m = 0; m < models_.size(); ++m) {
         const auto at = Eigen::Index(m) * increments_;
         const auto p = precisions_.middleCols(at, increments_);
         const auto pg = with_gram.middleCols(at, increments_);
-        auto out = seen.col(Eigen::Index(m));
-        for (Eigen::Index i = 0; i < increments_; ++i) out[i] = p.col(i).dot(pg.col(i));
-        for (Eigen::Index i = 1; i < increments_; ++i)
-            out[increments_ + i - 1] = out[i - 1] + out[i] - 2 * p.col(i - 1).dot(pg.col(i));
+        auto to = out.middleCols(2 * Eigen::Index(m), 2);
+        for (Eigen::Index i = 0; i < increments_; ++i) {
+            to(i, 0) = p.col(i).dot(pg.col(i));
+            if (i > 0) to(i - 1, 1) = p.col(i - 1).dot(pg.col(i));
+        }
     }
-    return seen;
+    return out;
 }
 
 Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     const double q = increments_, scale = std::max(gram.trace() / q, 1e-30);
     const MatrixXd g = gram / scale;  // no underflow, whatever the unit
     const std::size_t events = events_.size();
-    // Of a model, and of it with each event at each size (Sherman and Morrison 1950).
-    const MatrixXd seen_by_event = seen_by_events(g);
+    // Of a model, and of it with each event at each size.
+    const std::size_t sizes = std::size(kEventSize);
+    const MatrixXd seen_by_models = seen(g);
+    const auto seen_by_event = [&](std::size_t model, const Event& e) {
+        const auto of = seen_by_models.middleCols(2 * Eigen::Index(model), 2);
+        return Matrix2d{{of(e.a, 0), of(e.a, 1)}, {of(e.a, 1), of(e.b, 0)}};
+    };
     VectorXd alone(Eigen::Index(models_.size()));
     Eigen::ArrayXd evidence(log_priors_.size());  // the sum of squares first
     for (std::size_t i = 0, k = 0; i < models_.size(); ++i) {
         const auto m = Eigen::Index(i);
-        const VectorXd& of_events = models_[i].of_events;
         const double all = alone[m] = precision(i).cwiseProduct(g).sum();
         evidence[Eigen::Index(k++)] = all;
-        for (Eigen::Index e = 0; e < Eigen::Index(events); ++e)
-            for (const double tau : kEventSize)
+        for (std::size_t e = 0; e < events; ++e) {
+            const Matrix2d by_event = seen_by_event(i, events_[e]);
+            for (std::size_t size = 0; size < sizes; ++size)
                 evidence[Eigen::Index(k++)] =
-                    all - tau * seen_by_event(e, m) / (1 + tau * of_events[e]);
+                    all - models_[i].shares[e * sizes + size].cwiseProduct(by_event).sum();
+        }
     }
     evidence =
         -0.5 * count * (q * (evidence / q).max(1e-12).log() + log_determinants_) + log_priors_;
     const double best = evidence.maxCoeff();
     double total = 0;
     // Most are out of the question, and an exponential of them costs as much as any.
-    for (double& e : evidence) total += e = e < best - 60 ? 0 : std::exp(e - best);
+    for (double& e : evidence) total += e = e < best - 30 ? 0 : std::exp(e - best);
 
     // V is fitted to count q values: as of a t distribution, its uncertainty widens the error.
     const double freedom = std::max(count * q, 3.0);
@@ -180,21 +222,22 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
             left += of_model * all / q * m.unexplained;
         }
         for (std::size_t e = 0; e < events; ++e) {
-            const auto column = Eigen::Index(e);
-            const double seen = seen_by_event(column, Eigen::Index(i));
-            for (const double tau : kEventSize) {
+            const Matrix2d by_event = seen_by_event(i, events_[e]);
+            for (std::size_t size = 0; size < sizes; ++size) {
                 const double p = here[k++];
                 if (p < kNegligible) continue;
                 of_model += p;
                 of_event[e] += p;
-                const VectorXd at = along(precision(i), events_[e]);
-                const VectorXd toward = along(m.weights, events_[e]);
-                const double share = tau / (1 + tau * m.of_events[column]);
-                out.weights -= (p * share) * toward * at.transpose();
-                square += p * (plain - 2 * share * toward.cwiseProduct(with_gram * at) +
-                               share * share * seen * toward.cwiseAbs2());
-                left += p * (all - share * seen) / q * (m.unexplained + share * toward.cwiseAbs2());
-                variance += p * (all - share * seen) / q;
+                const Matrix2d& share = m.shares[e * sizes + size];
+                const MatrixX2d at = touched(precision(i), events_[e]);
+                const MatrixX2d toward = touched(m.weights, events_[e]);
+                const MatrixX2d taken = toward * share;
+                const double rest = all - share.cwiseProduct(by_event).sum();
+                out.weights -= p * taken * at.transpose();
+                square += p * (plain - 2 * taken.cwiseProduct(with_gram * at).rowwise().sum() +
+                               taken.cwiseProduct(taken * by_event).rowwise().sum());
+                left += p * rest / q * (m.unexplained + taken.cwiseProduct(toward).rowwise().sum());
+                variance += p * rest / q;
             }
         }
         out.weights += of_model * m.weights;

@@ -35,11 +35,13 @@ struct Trend {
 /// For a number of increments (frames - 1), which is all that the grid depends on. Increments
 /// d_1 .. d_q of one component are Gaussian with covariance V (A K A + eta T):
 ///   K  how they hang together: rho^lag (a drift that wanders), or (1 + a lag) e^(-a lag)
-///      (Matern 3/2: a drift that bends smoothly)
+///      (Matern 3/2: a drift that bends smoothly), or rho^lag cos(2 pi lag / period) (one that
+///      swings to and fro)
 ///   A  how they slow down: e^(-kappa age)
 ///   T  white noise of the frames, whose differences are 2 on the diagonal and -1 beside it
-/// and, in variants of each, one step (an increment of any size) or one outlying frame. V is
-/// fitted. Building costs O(models q^3), once; `trend` O(models q^3): 0.3 ms at q = 9.
+/// and, in variants of each, one step (an increment of any size, or two where it falls within the
+/// time of a frame) or one outlying frame. V is fitted. Building costs O(models q^3), once; `trend`
+/// O(models q^3): 0.3 ms at q = 9.
 class TrendModels {
   public:
     /// `increments`: at least 1.
@@ -55,20 +57,27 @@ class TrendModels {
         TrendKind kind;
         Eigen::MatrixXd weights;      ///< [kTrendUnits x increments]
         Eigen::VectorXd unexplained;  ///< variance of the change to come that they leave, V = 1
-        Eigen::VectorXd of_events;    ///< event' * precision * event
+        /// Per event and size of it: what it takes away of the precision, in a product
+        /// precision * share * precision, on the two increments that it touches.
+        std::vector<Eigen::Matrix2d> shares;
     };
-    /// What happens to an increment: to it alone (a step before `frame`), or to it what is taken
-    /// back from the one before (`frame` is an outlier).
+    /// Something that happens to increments a and b = a + 1 (of one increment alone: a) besides
+    /// what the model says.
     struct Event {
-        int increment = 0, frame = 0;
+        int a = 0, b = 0;
+        Eigen::Matrix2d shape;  ///< its covariance there, of size 1
+        double prior = 0;
+        int frame = 0;  ///< see Trend
         bool outlier = false;
     };
-    /// A matrix, of as many columns as there are increments, times an event.
-    static Eigen::VectorXd along(const Eigen::Ref<const Eigen::MatrixXd>& matrix,
-                                 const Event& event);
+    void add_events();
+    /// A matrix's columns that an event touches.
+    static Eigen::MatrixX2d touched(const Eigen::Ref<const Eigen::MatrixXd>& matrix,
+                                    const Event& event);
     Eigen::Ref<const Eigen::MatrixXd> precision(std::size_t model) const;
-    /// Of all models, event' * precision * gram * precision * event: [events x models].
-    Eigen::MatrixXd seen_by_events(const Eigen::MatrixXd& gram) const;
+    /// Of all models, the diagonal of precision * gram * precision and what is next to it:
+    /// [increments x 2 models].
+    Eigen::MatrixXd seen(const Eigen::MatrixXd& gram) const;
     /// Of a model: it alone, and with each event at each size.
     std::size_t variants() const;
     void add(const TrendKind& kind, const TrendMoments& moments, double prior);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace verdigris {
@@ -103,6 +104,44 @@ TEST(TrendModels, AStepIsNotCarriedOn) {
         }
         EXPECT_NEAR((trend.weights * d)[kTenUnits], 0.008, 0.03) << at;
     }
+}
+
+TEST(TrendModels, AStepWithinTheTimeOfAFrameIsNotCarriedOnEither) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0, 0.003);
+    for (const double share : {0.1, 0.3, 0.5, 0.8}) {
+        for (int at = 1; at < 9; ++at) {
+            VectorXd d(9);
+            for (double& v : d) v = noise(random);
+            d[at - 1] += share, d[at] += 1 - share;
+            const Trend trend = of_series(d);
+            EXPECT_GT(trend.event, 0.9) << at << " " << share;
+            EXPECT_NEAR((trend.weights * d)[kTenUnits], 0, 0.1) << at << " " << share;
+        }
+    }
+    // Four increments that rise by steady halves are no step.
+    const VectorXd d = VectorXd::Ones(4);
+    EXPECT_LT(of_series(d).event, 0.5);
+}
+
+TEST(TrendModels, WhatSwingsSwingsBack) {
+    // Twelve increments of a level that goes to and fro in eight units, and its next ten.
+    const auto level = [](double t) { return std::sin(2 * std::numbers::pi * t / 8); };
+    VectorXd d(12);
+    for (int i = 0; i < 12; ++i) d[i] = level(i + 1) - level(i);
+    TrendPrior none;
+    none.swing = false;
+    const VectorXd ahead = of_series(d).weights * d;
+    const VectorXd without = TrendModels(12, none).trend(d * d.transpose(), 30).weights * d;
+    double error = 0, error_without = 0, change = 0;
+    for (int u = 0; u <= kTenUnits; ++u) {
+        const double truth = level(13 + u) - level(12);
+        error += (ahead[u] - truth) * (ahead[u] - truth);
+        error_without += (without[u] - truth) * (without[u] - truth);
+        change += truth * truth;
+    }
+    EXPECT_LT(error, 0.2 * change);
+    EXPECT_GT(error_without, 10 * error);  // its bend goes on
 }
 
 TEST(TrendModels, AnOutlyingFrameIsSetAside) {

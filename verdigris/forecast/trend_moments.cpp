@@ -2,6 +2,7 @@
 #include "verdigris/forecast/trend_moments.h"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace verdigris {
@@ -13,17 +14,18 @@ using Eigen::VectorXd;
 constexpr double kTrusted = 50;  // units after which a drift may as well be another one
 constexpr double kFloor = 1e-4;  // variance that no model explains, of V
 
-double covariance_at(bool bending, double rho, double lag) {
-    const double fall = lag == 0 ? 1 : std::pow(rho, lag);
-    return bending ? (1 - std::log(rho) * lag) * fall : fall;
+double covariance_at(const TrendKind& kind, double lag) {
+    const double fall = lag == 0 ? 1 : std::pow(kind.rho, lag);
+    if (kind.period > 0) return std::cos(2 * std::numbers::pi * lag / kind.period) * fall;
+    return kind.bending ? (1 - std::log(kind.rho) * lag) * fall : fall;
 }
 
 /// Variance of what a drift adds up to, for kTrendUnits ahead.
-VectorXd variance_ahead(bool bending, double rho, double kappa) {
+VectorXd variance_ahead(const TrendKind& kind, double kappa) {
     const int last = int(kTrendUnits.back());
     std::vector<double> covariance, size;
     for (int lag = 0; lag <= last; ++lag) {
-        covariance.push_back(covariance_at(bending, rho, lag));
+        covariance.push_back(covariance_at(kind, lag));
         size.push_back(std::exp(-kappa * lag));
     }
     VectorXd out(Eigen::Index(kTrendUnits.size()));
@@ -57,21 +59,21 @@ DriftMoments drift_moments(const TrendKind& kind, int q, double doubt) {
     const auto size = [&](double back) { return std::exp(kind.kappa * back); };
     for (int i = 0; i < q; ++i) {
         for (int j = 0; j < q; ++j) {
-            out.drift(i, j) = size(q - 1 - i) * size(q - 1 - j) *
-                              covariance_at(kind.bending, kind.rho, std::abs(i - j));
+            out.drift(i, j) =
+                size(q - 1 - i) * size(q - 1 - j) * covariance_at(kind, std::abs(i - j));
         }
         // Summed unit by unit up to each of kTrendUnits.
         double sum = 0;
         for (int u = 0, ahead = 1; u < units; ++u) {
             for (; ahead <= int(kTrendUnits[std::size_t(u)]); ++ahead)
                 sum += size(q - 1 - i) * size(-ahead) * std::exp(-doubt * ahead) *
-                       covariance_at(kind.bending, kind.rho, q - 1 - i + ahead);
+                       covariance_at(kind, q - 1 - i + ahead);
             out.future(u, i) = sum;
         }
     }
     const VectorXd doubted = 1 - (-(units_ahead() / kTrusted).array().cube()).exp();
-    const VectorXd drifting = variance_ahead(kind.bending, kind.rho, kind.kappa + doubt);
-    out.ahead = drifting + doubted.cwiseProduct(variance_ahead(kind.bending, kind.rho, kind.kappa));
+    const VectorXd drifting = variance_ahead(kind, kind.kappa + doubt);
+    out.ahead = drifting + doubted.cwiseProduct(variance_ahead(kind, kind.kappa));
     return out;
 }
 

@@ -27,6 +27,7 @@ struct TrendKind {
     double rho = 0;        ///< how neighboring increments hang together
     double kappa = 0;      ///< slows down by e^-kappa per unit
     double eta = 0;        ///< variance of the white noise of frames, of V
+    double period = 0;     ///< swings to and fro, in units; 0: does not
 };
 
 /// At V = 1, for q increments.

@@ -28,7 +28,7 @@ double TrendOutlook::error_of(const TrendKind& kind, const Circumstances& c) {
         return error_left(level_moments(c.increments, eta), eta);
     }
     const auto [at, is_new] =
-        drifts_.try_emplace({kind.bending, kind.rho, kind.kappa, c.increments});
+        drifts_.try_emplace({kind.bending, kind.rho, kind.kappa, kind.period, c.increments});
     if (is_new) at->second = drift_moments(kind, c.increments, doubt_);
     // What slows down is smaller later on, and noise is not.
     const double size = std::exp(-2 * kind.kappa * c.later);

@@ -34,7 +34,7 @@ class TrendOutlook {
     double error_of(const TrendKind& kind, const Circumstances& c);
 
     double doubt_;
-    std::map<std::tuple<bool, double, double, int>, DriftMoments> drifts_;
+    std::map<std::tuple<bool, double, double, double, int>, DriftMoments> drifts_;
 };
 
 /// Variance of the noise of one frame, as the likely models have it, in the same unit.
