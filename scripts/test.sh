@@ -18,11 +18,12 @@ if [ "${1:-}" != --quick ]; then
   # The rooms that read what others made, and their neighbors; the rest follows by hand where needed.
   scripts/build.sh sanitize verdigris_cli verdigris_fixture verdigris_recording_test \
     verdigris_observe_test verdigris_forecast_test verdigris_material_test verdigris_simulate_test \
-    verdigris_evaluate_test verdigris_results_test verdigris_report_test
+    verdigris_evaluate_test verdigris_results_test verdigris_report_test verdigris_metrics_test \
+    verdigris_render_test verdigris_appearance_test verdigris_workflow_test verdigris_reproduce_test
   # fontconfig keeps its patterns behind pointers that the leak checker cannot follow.
   ASAN_OPTIONS=allocator_may_return_null=1 \
     LSAN_OPTIONS=suppressions="$PWD/tests/cli/leaks.txt":print_suppressions=0 \
     UBSAN_OPTIONS=print_stacktrace=1 ctest --preset sanitize -j2 \
-    -R '^((recording|observe|forecast|material|evaluate|results)\.|report\.[A-Z]|simulate\.(Spec|Scene|Camera|Coverage|Truth|GrayScott)|cli\.(bad_input|stages|simulate)$)'
+    -R '^((recording|observe|forecast|material|evaluate|results|metrics|render|appearance|workflow|reproduce)\.|report\.[A-Z]|simulate\.(Spec|Scene|Camera|Coverage|Truth|GrayScott)|cli\.(bad_input|stages|simulate|compare|render|advice)$)'
 fi
 echo "All tests passed."

@@ -226,7 +226,8 @@ TEST(Render, LooksStraightDownToo) {
     t.view = {{0, 5, 0}, {}, 26};
     RenderScene scene = t.scene();
     scene.backdrop = {gray(0.5f), gray(0.5f)};
-    for (const LinearF& c : render(scene, {.width = 8, .height = 8}).light.pixels()) {
+    const Rendering seen = render(scene, {.width = 8, .height = 8});
+    for (const LinearF& c : seen.light.pixels()) {
         EXPECT_NEAR(c.g, 0.5f, 0.51f);  // a number; the plate is seen from its edge
         EXPECT_TRUE(std::isfinite(c.g));
     }
