@@ -31,4 +31,5 @@ if [ $# -eq 0 ] && [ ! -e "$recording" ]; then
 fi
 "$verdigris" age "$recording" -o "$out"
 echo
-echo "The program is $verdigris (try: verdigris --help)"
+echo "The program is $verdigris. To type verdigris alone:"
+echo "  export PATH=\"$root/build/release/bin:\$PATH\"; verdigris --help"

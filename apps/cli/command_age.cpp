@@ -69,10 +69,7 @@ void run(Session& session, const Arguments& a) {
     }
     session.say(fmt::format("Import    {} and {}/", (output / kGltfFile).string(),
                             (output / kTexturesFolder).string()));
-    session.say(std::string("Try next  other --horizons") +
-                (a.forecast.forecaster == "affinergb" ? ", or --forecaster auto"
-                                                      : ", or --forecaster affinergb") +
-                "; the observation is kept");
+    session.say("Try next  other --horizons; the observation is kept");
     session.result(manifest);
 }
 
@@ -82,7 +79,7 @@ void add_age(CLI::App& app, Session& session) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("age", "The whole job: footage in, aged materials out");
     command->add_option("INPUT", a->input, "A video, or a folder of photographs")->required();
-    command->add_option("-o,--out", a->output, "Result folder (default: <input>-aged)");
+    command->add_option("-o,--out", a->output, "Result folder (default: NAME-aged here)");
     a->observe.add(*command);
     a->forecast.add(*command);
     a->material.add(*command);

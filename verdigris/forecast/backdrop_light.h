@@ -14,8 +14,8 @@ using LightGains = std::vector<std::array<double, 3>>;
 
 /// Per frame and channel: how much brighter, in linear light, the last frame shows the backdrop
 /// (pixels outside the specimen and not at its edge, not clipped, not black): the median over
-/// pixels, which a moving minority does not shift. Where there are not 200 of them to see: of the whole picture, if one gray
-/// gain per frame is all that happens to it, noise aside; else all 1.
+/// pixels, which a moving minority does not shift. Where there are not 200 of them to see: of the
+/// whole picture, if one gray gain per frame is all that happens to it, noise aside; else all 1.
 LightGains backdrop_light(const Context& context);
 
 /// Is there backdrop enough to see the light on?

@@ -17,6 +17,7 @@ namespace verdigris {
 namespace {
 
 constexpr int kFewest = 5;                    // the least that a forecast wants
+constexpr double kUsualContext = 10;          // of `age`
 constexpr double kInvisible = 0.5 / 255;      // chosen: half an 8-bit step
 constexpr double kLonger = 3;                 // chosen: four times as long is as far as is looked
 constexpr double kHardly = 0.8;               // chosen: less is not worth waiting for
@@ -100,8 +101,12 @@ std::string how_long(const CaptureOutlook& o, const RecentUnits& recent) {
                                  ? fmt::format("; {} by the recording's own clock",
                                                time_text(o.units * recent.seconds_per_unit))
                                  : "";
-    return fmt::format("roughly {} ({}{})", count(coarse(o.frames), "more frame"),
-                       count(o.units, "unit"), time);
+    // By default a forecast looks at the last ten.
+    const double all = std::min(recent.units + o.units, double(kLongestContext));
+    const std::string context =
+        all > kUsualContext ? fmt::format("; age with --context {:.0f}", all) : "";
+    return fmt::format("roughly {} ({}{}{})", count(coarse(o.frames), "more frame"),
+                       count(o.units, "unit"), time, context);
 }
 
 std::string levers(const CaptureAdvice& a) {
@@ -136,7 +141,7 @@ void say(const RecentUnits& recent, CaptureAdvice& a) {
                           : fmt::format(
                                 "; recording on will not halve that, {} may leave {:.0f} % "
                                 "of it",
-                                how_long(far, recent), 10 * std::round(10 * left));
+                                how_long(far, recent), 10 * std::ceil(10 * left));
         a.id = "unforeseen";
         if (a.light_share >= kMostly) {
             a.id = "light";
@@ -168,6 +173,10 @@ CaptureAdvice capture_advice(const RecentUnits& recent) {
             "too little is recorded to say what more would be worth; record "
             "at least {} frames, better a hundred",
             2 * kFewest);
+        if (recent.units >= 2 * kFewest)
+            out.sentence =
+                "too few pictures at the end can be read to say what more would be "
+                "worth";
         return out;
     }
     Context context;

@@ -67,6 +67,15 @@ std::optional<Status> long_horizon(const Context& context, const Forecast& forec
                           ": the surface is shown as it was last seen, and nothing observed "
                           "says that it stays so for that long."};
     }
+    const TimeLaw* law = forecast.is_trajectory() ? &forecast.trajectory.law : nullptr;
+    if (law && law->tabulated() && law->nodes.back().horizon <= limit) {
+        return Status{
+            "long_horizon", Severity::caution,
+            fmt::format("{}: the forecast stands still from +{:.0f} on, so {} what +{:.0f} "
+                        "shows, and nothing observed says that it stays so for that long.",
+                        where, law->nodes.back().horizon, one ? "it shows" : "they show",
+                        law->nodes.back().horizon)};
+    }
     return Status{"long_horizon", Severity::caution,
                   fmt::format("{}: the drift was not measured over such a span, so read {} as a "
                               "direction, not as a prediction.",

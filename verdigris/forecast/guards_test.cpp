@@ -64,6 +64,17 @@ TEST(Guards, LongHorizonNamesTheHorizons) {
     EXPECT_NE(find(held, "long_horizon")->sentence.find("as it was last seen"), std::string::npos);
 }
 
+TEST(Guards, LongHorizonSaysWhereTheForecastStandsStill) {
+    const Context context = drifting(10, planted_drift(), 0.002);
+    Forecast f = affinergb().forecast(context);
+    f.trajectory.law.nodes = {{1, 1, 0}, {15, 9, 0}};
+    const Statuses guards = check_guards(context, f, {5, 50});
+    ASSERT_NE(find(guards, "long_horizon"), nullptr);
+    EXPECT_NE(find(guards, "long_horizon")->sentence.find("stands still from +15 on, so it shows"),
+              std::string::npos)
+        << find(guards, "long_horizon")->sentence;
+}
+
 TEST(Guards, ColorReversalNamesTheChannel) {
     Context context;
     std::mt19937 random(1);

@@ -21,7 +21,7 @@ constexpr int kFewestOfVideo = 7, kMostOfVideo = 12;
 constexpr double kShare = 0.02, kLeastDecoded = 60;
 constexpr double kFramesPerJump = 125;  // see look.cpp
 
-/// The last frame of each unit step, oldest first, as far back as no step is empty.
+/// The last frame of each unit step, oldest first; -1 where a step is empty. The first is none.
 std::vector<int> last_of_units(const AxisPlan& plan) {
     const std::vector<bool> kept = kept_samples(plan.axis, Keep::unit_steps);
     std::vector<int> last_in_bin(kept.size(), -1);
@@ -29,9 +29,7 @@ std::vector<int> last_of_units(const AxisPlan& plan) {
         last_in_bin[std::size_t(plan.bin_of_frame[i])] = int(i);
     std::vector<int> out;
     for (std::size_t bin = kept.size(); bin-- > 0;) {
-        if (!kept[bin]) continue;
-        if (last_in_bin[bin] < 0) break;
-        out.push_back(last_in_bin[bin]);
+        if (kept[bin]) out.push_back(last_in_bin[bin]);
     }
     std::reverse(out.begin(), out.end());
     return out;
@@ -66,6 +64,31 @@ Rect in_look(Rect crop, const Look& look) {
             std::clamp(int(std::lround(crop.height * sy)), 1, size.height() - y)};
 }
 
+/// Pictures that are missing, half-way between those beside them, as observe has it for samples
+/// that no frame falls into.
+void fill_gaps(std::vector<Image<SrgbF>>& frames) {
+    for (std::size_t i = 0; i < frames.size();) {
+        if (!frames[i].empty()) {
+            ++i;
+            continue;
+        }
+        std::size_t next = i;
+        while (next < frames.size() && frames[next].empty()) ++next;
+        if (next == frames.size()) return frames.resize(i);
+        const Image<SrgbF>&a = frames[i - 1], &b = frames[next];
+        const auto steps = float(next - i + 1);
+        for (float k = 1; i < next; ++i, ++k) {
+            const float t = k / steps;
+            frames[i] = Image<SrgbF>::for_overwrite(a.width(), a.height());
+            for (std::size_t at = 0; at < a.pixels().size(); ++at) {
+                const SrgbF p = a.pixels()[at], q = b.pixels()[at];
+                frames[i].pixels()[at] = {p.r + t * (q.r - p.r), p.g + t * (q.g - p.g),
+                                          p.b + t * (q.b - p.b)};
+            }
+        }
+    }
+}
+
 }  // namespace
 
 RecentUnits recent_units(const Recording& recording, const Look& look,
@@ -86,11 +109,17 @@ RecentUnits recent_units(const Recording& recording, const Look& look,
     std::vector<int> wanted = last_of_units(plan);
     const int most = units_to_read(info, look, frames, out.frames_per_unit);
     if (int(wanted.size()) > most) wanted.erase(wanted.begin(), wanted.end() - most);
+    const auto is_there = [](int frame) { return frame >= 0; };
+    wanted.erase(wanted.begin(), std::find_if(wanted.begin(), wanted.end(), is_there));
     const Rect rect = in_look(crop, look);
     std::unique_ptr<FrameReader> reader;
     Frame frame;
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         report(progress, "look", std::int64_t(i), std::int64_t(wanted.size()));
+        if (wanted[i] < 0) {
+            if (!out.frames.empty()) out.frames.emplace_back();
+            continue;
+        }
         const auto seen = std::find(look.index.begin(), look.index.end(), wanted[i]);
         if (seen != look.index.end()) {
             out.frames.push_back(small(look.frames[std::size_t(seen - look.index.begin())], rect));
@@ -99,8 +128,7 @@ RecentUnits recent_units(const Recording& recording, const Look& look,
         if (!reader) reader = recording.read();
         reader->seek(wanted[i]);
         if (!reader->next(frame) || frame.index != wanted[i]) {
-            // A hole: what is before it is no context of what comes after.
-            out.frames.clear();
+            if (!out.frames.empty()) out.frames.emplace_back();
             reader.reset();
             continue;
         }
@@ -108,6 +136,7 @@ RecentUnits recent_units(const Recording& recording, const Look& look,
             srgb_from_planes(frame.planes, info.format, {0, 0, info.width, info.height});
         out.frames.push_back(small(look_sized(shown), rect));
     }
+    fill_gaps(out.frames);
     if (out.frames.empty()) return out;
     out.specimen =
         specimen_mask(finding, look, crop, out.frames.front().width(), out.frames.front().height());

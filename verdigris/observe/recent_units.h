@@ -16,7 +16,8 @@ inline constexpr int kRecentSide = 128;
 
 struct RecentUnits {
     /// Single frames, one unit apart, the last frame's unit last, 20 at most; all of one size. Of
-    /// the crop that --crop auto would choose.
+    /// the crop that --crop auto would choose. A unit without a frame has the one between its
+    /// neighbors'.
     std::vector<Image<SrgbF>> frames;
     Mask specimen;                 ///< of their size
     int frames_recorded = 0;       ///< in all

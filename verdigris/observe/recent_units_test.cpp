@@ -63,6 +63,23 @@ TEST(RecentUnits, ThereIsOneFramePerUnitUpToTheLast) {
     }
 }
 
+TEST(RecentUnits, AUnitWithoutAFrameIsFilledFromItsNeighbors) {
+    testing::MadeScene made = scene();
+    std::vector<double> times;
+    for (int i = 0; i < 40; ++i)
+        if (i != 30 && i != 34 && i != 35) times.push_back(2.0 * i);
+    const auto frame_at = [&](int n) { return made.frame(int(times[std::size_t(n)]) / 2, 40); };
+    RecentUnits recent;
+    inspect(recording_from_function(made.width, made.height, times, frame_at), recent);
+    ASSERT_GE(recent.frames.size(), 15u);
+    // It darkens steadily, gaps or not: units are a little longer than frames, so by one or two.
+    std::vector<double> red;
+    for (const auto& frame : recent.frames) red.push_back(mean_red(frame, recent.specimen));
+    const double pace = (red.front() - red.back()) / double(red.size() - 1);
+    EXPECT_GT(pace, 0);
+    for (std::size_t i = 1; i < red.size(); ++i) EXPECT_NEAR(red[i - 1] - red[i], pace, 1.1 * pace);
+}
+
 TEST(RecentUnits, OfAStillSceneNothingIsRead) {
     const RecentUnits r = recent_of(30, 0);
     EXPECT_TRUE(r.still);

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Made recordings of surfaces that are not copper, for scripts/surfaces_results.sh.
+
+  made_surfaces.py FOLDER
+
+150 frames of 128 x 96 each, 8 bit, lossless: a plate of 88 x 68 pixels with a grain of 5 % on a gray
+backdrop (encoded 0.35) or on black (0.02), under noise of 0.6 % of full scale unless said otherwise. Not simulated:
+no physics, only what changes look like. Same numbers on every machine with the same numpy. Needs
+python3-numpy and ffmpeg (Debian).
+"""
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+
+WIDTH, HEIGHT, FRAMES = 128, 96, 150
+Y, X = np.mgrid[0:HEIGHT, 0:WIDTH]
+PLATE = (abs(X - 64) < 44) & (abs(Y - 48) < 34)
+TAU = 2 * np.pi
+
+
+def pattern(reach, random):
+    """Noise that reaches as far, in pixels; mean 0, deviation 1."""
+    ky, kx = np.fft.fftfreq(HEIGHT)[:, None], np.fft.fftfreq(WIDTH)[None]
+    low = np.exp(-2 * (np.pi * reach) ** 2 * (kx**2 + ky**2))
+    field = np.real(np.fft.ifft2(np.fft.fft2(random.normal(size=(HEIGHT, WIDTH))) * low))
+    return (field - field.mean()) / field.std()
+
+
+COARSE, FINE = (lambda r: (pattern(8, r), pattern(4, r)))(np.random.default_rng(5))
+
+
+def blend(a, b, share):
+    return np.array(a) + (np.array(b) - np.array(a)) * (share + 0 * COARSE)[..., None]
+
+
+def soft(x):
+    return 1 / (1 + np.exp(-x))
+
+
+def blobs(u):
+    places = ((40, 30, 60), (80, 60, 42), (60, 45, 24), (95, 35, 48))
+    return np.max([soft((u * pace - np.hypot(X - x, Y - y)) / 2) for x, y, pace in places], axis=0)
+
+
+COPPER, GREEN = (0.7, 0.45, 0.35), (0.4, 0.45, 0.4)
+
+# name: (what it shows, color by (share of the recording, frame), and what is unusual about the camera)
+SURFACES = {
+    "dye": ("a dye that fades", lambda u, t: blend((0.7, 0.2, 0.25), (0.85, 0.75, 0.7),
+            1 - np.exp(-(1.5 + 0.5 * COARSE) * u)), {}),
+    "toast": ("bread that browns late", lambda u, t: blend((0.8, 0.7, 0.5), (0.3, 0.18, 0.1),
+              soft(12 * (u - 0.5) + 1.5 * COARSE)), {}),
+    "front": ("a front that sweeps across", lambda u, t: blend(COPPER, (0.25, 0.5, 0.4),
+              soft((u * 140 - 10 - X + 3 * FINE) / 3)), {}),
+    "drying": ("a wet patch that shrinks", lambda u, t: blend((0.3, 0.27, 0.22), (0.6, 0.55, 0.48),
+               soft((np.hypot(X - 64, Y - 48) - 60 * (1 - u) + 3 * COARSE) / 2.5)), {}),
+    "mold": ("blobs that grow outward", lambda u, t: blend((0.75, 0.7, 0.5), (0.2, 0.25, 0.2), blobs(u)), {}),
+    "rust": ("rust that starts here, then there", lambda u, t: blend((0.5, 0.5, 0.52), (0.45, 0.2, 0.08),
+             np.clip((u - 0.2 + 0.15 * COARSE + 0.05 * FINE) * 1.8, 0, 1)), {}),
+    "pops": ("pixels that turn at once, each when it likes", lambda u, t: blend(COPPER, (0.2, 0.3, 0.25),
+             1.0 * (COARSE + 1.5 * FINE < -3 + 5 * u)), {}),
+    "hue": ("a color that goes around the circle", lambda u, t: np.stack(
+            [0.5 + 0.3 * np.cos(TAU * (u * 1.2 + 0.05 * COARSE) + k * TAU / 3) for k in range(3)], -1), {}),
+    "settling": ("a change that dies away", lambda u, t: blend((0.4, 0.3, 0.25), (0.7, 0.5, 0.35),
+                 np.exp(-8 * u) * (1 + 0.2 * COARSE)), {}),
+    "late": ("a change that gets ever faster", lambda u, t: blend(COPPER, (0.25, 0.45, 0.4),
+             u**3 * (1 + 0.3 * COARSE)), {}),
+    "slow": ("less than a code a unit", lambda u, t: blend((0.5, 0.4, 0.3), (0.53, 0.42, 0.31),
+             u * (1 + 0.3 * COARSE)), {}),
+    "clipping": ("brightens until it clips", lambda u, t: blend((0.5, 0.5, 0.5), (1.3, 1.2, 1.1),
+                 u * (1 + 0.2 * COARSE)), {}),
+    "stepping": ("still, but for two sudden steps", lambda u, t: blend((0.6, 0.4, 0.3), (0.4, 0.5, 0.45),
+                 0.6 * (u > 0.35) + 0.4 * (u > 0.7)), {}),
+    "wave": ("three slow swings", lambda u, t: blend((0.5, 0.4, 0.3), (0.7, 0.5, 0.4),
+             0.5 + 0.5 * np.sin(3 * TAU * u + 0.5 * COARSE)), {}),
+    "breath": ("swings of 12 frames on a slow drift, the exposure jitters by 1 %", lambda u, t: blend(
+               (0.6, 0.4, 0.3), (0.5, 0.42, 0.36), 0.4 * u + 0.2 * np.sin(TAU * t / 12)), {"jitter": 0.01}),
+    "daylight": ("the light swings by a quarter, four times", lambda u, t: blend(COPPER, (0.3, 0.45, 0.4),
+                 u * (1 + 0.3 * COARSE)), {"light": lambda u: 1 + 0.25 * np.sin(4 * TAU * u)}),
+    "noisy": ("noise of 8 %", lambda u, t: blend(COPPER, (0.5, 0.45, 0.4), u * (1 + 0.3 * COARSE)),
+              {"noise": 0.08}),
+    "shaking": ("the camera shakes by a pixel", lambda u, t: blend(COPPER, GREEN, u * (1 + 0.3 * COARSE)),
+                {"shake": 1}),
+    "coarse": ("25 levels in all", lambda u, t: blend(COPPER, (0.6, 0.45, 0.4), u * (1 + 0.3 * COARSE)),
+               {"levels": 24}),
+}
+ON_BLACK = ("front", "hue", "noisy")
+
+
+def record(path, color, seed, noise=0.006, light=lambda u: 1, jitter=0, shake=0, levels=255, backdrop=0.35):
+    random = np.random.default_rng(seed)
+    grain = 1 + 0.05 * pattern(1.5, random)
+    out = subprocess.Popen(
+        ["ffmpeg", "-nostdin", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
+         f"{WIDTH}x{HEIGHT}", "-r", "10", "-i", "-", "-c:v", "ffv1", "-pix_fmt", "bgr0", path],
+        stdin=subprocess.PIPE)
+    for t in range(FRAMES):
+        u = t / (FRAMES - 1)
+        picture = np.where(PLATE[..., None], color(u, t) * grain[..., None], backdrop)
+        lit = np.clip(picture, 0, 1) ** 2.2 * light(u) * (1 + jitter * random.normal())
+        seen = np.clip(lit, 0, 1) ** (1 / 2.2)
+        if shake:
+            seen = np.roll(seen, tuple(random.integers(-shake, shake + 1, size=2)), axis=(0, 1))
+        seen = np.round((seen + noise * random.normal(size=seen.shape)) * levels) / levels
+        out.stdin.write((np.clip(seen, 0, 1) * 255 + 0.5).astype(np.uint8).tobytes())
+    out.stdin.close()
+    if out.wait() != 0:
+        sys.exit(f"{path}: ffmpeg failed")
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    folder = pathlib.Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
+    for seed, (name, (what, color, camera)) in enumerate(SURFACES.items()):
+        record(folder / f"{name}.mkv", color, 100 + seed, **camera)
+        print(f"{name}\t{what}")
+        if name in ON_BLACK:
+            record(folder / f"{name}-on-black.mkv", color, 200, jitter=0.01, backdrop=0.02,
+                   **{k: v for k, v in camera.items() if k != "jitter"})
+            print(f"{name}-on-black\tthe same on black, the exposure jitters by 1 %")
+
+
+if __name__ == "__main__":
+    main()
