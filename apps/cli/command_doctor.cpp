@@ -11,6 +11,7 @@ extern "C" {
 #include <thread>
 
 #include "commands.h"
+#include "learned.h"
 #include "verdigris/deliver/deliver.h"
 #include "verdigris/report/child_process.h"
 #include "verdigris/report/page.h"
@@ -70,6 +71,12 @@ void run(Session& session) {
     line("reports", report_is_interactive()
                         ? "with interactive charts"
                         : "without interactive charts: built without node >= 18 and npm");
+
+    const std::string no_networks = no_networks_because();
+    out["networks"] = no_networks.empty();
+    line("networks", no_networks.empty()
+                         ? "built in: `train`, `susceptibility`, `study`, and LPIPS with weights"
+                         : no_networks + "; LPIPS is n/a");
 
     struct Program {
         const char *name, *use, *cost;

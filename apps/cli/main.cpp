@@ -77,9 +77,12 @@ int main(int argc, char** argv) {
         const auto commands =
             app.get_subcommands([&](CLI::App* c) { return c->get_name() == word; });
         const bool unknown = !word.empty() && word[0] != '-' && commands.empty();
-        return fail(session, int(ErrorCode::usage),
-                    (unknown ? "there is no command '" + word + "'" : std::string(e.what())) +
-                        " (try `verdigris --help`)");
+        constexpr std::string_view kNotRead = "Could not convert: ";  // CLI11's own words
+        std::string what = unknown ? "there is no command '" + word + "'" : e.what();
+        if (what.starts_with(kNotRead))
+            what = what.substr(kNotRead.size()) + " is not what this option takes";
+        const std::string of = commands.empty() ? "" : word + " ";
+        return fail(session, int(ErrorCode::usage), what + " (try `verdigris " + of + "--help`)");
     }
     cli::catch_interrupts();
     set_thread_count(session.threads);
