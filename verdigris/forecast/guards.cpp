@@ -53,8 +53,11 @@ std::optional<Status> long_horizon(const Context& context, const Forecast& forec
                                    const std::vector<double>& horizons) {
     const double limit = kTrustedContexts * context.length();
     std::vector<std::string> beyond;
+    double nearest = 1e9;
     for (double h : horizons) {
-        if (h > limit) beyond.push_back(fmt::format("+{}", h));
+        if (h <= limit) continue;
+        beyond.push_back(fmt::format("+{}", h));
+        nearest = std::min(nearest, h);
     }
     if (beyond.empty()) return {};
     const bool one = beyond.size() == 1;
@@ -68,7 +71,7 @@ std::optional<Status> long_horizon(const Context& context, const Forecast& forec
                           "says that it stays so for that long."};
     }
     const TimeLaw* law = forecast.is_trajectory() ? &forecast.trajectory.law : nullptr;
-    if (law && law->tabulated() && law->nodes.back().horizon <= limit) {
+    if (law && law->tabulated() && law->nodes.back().horizon <= nearest) {
         return Status{
             "long_horizon", Severity::caution,
             fmt::format("{}: the forecast stands still from +{:.0f} on, so {} what +{:.0f} "

@@ -73,6 +73,10 @@ TEST(Guards, LongHorizonSaysWhereTheForecastStandsStill) {
     EXPECT_NE(find(guards, "long_horizon")->sentence.find("stands still from +15 on, so it shows"),
               std::string::npos)
         << find(guards, "long_horizon")->sentence;
+    // Still under way at +30.
+    f.trajectory.law.nodes.back().horizon = 40;
+    EXPECT_NE(find(check_guards(context, f, {30, 50}), "long_horizon")->sentence.find("direction"),
+              std::string::npos);
 }
 
 TEST(Guards, ColorReversalNamesTheChannel) {
