@@ -88,13 +88,50 @@ SURFACES = {
 }
 ON_BLACK = ("front", "hue", "noisy")
 
+WALK = np.cumsum(np.random.default_rng(3).normal(size=(FRAMES, 3)) * 0.01, axis=0)
+EVEN = 1 + 0.3 * COARSE
+
+# Drawn up after the method had been changed for the first: nothing was changed for these.
+SECOND = {
+    "stopping": ("a change that stops half-way", lambda u, t: blend(COPPER, GREEN, 1.6 * min(u, 0.5) * EVEN), {}),
+    "turning": ("and one that goes back", lambda u, t: blend(COPPER, GREEN, 2 * min(u, 1 - u) * EVEN), {}),
+    "explosive": ("grows exponentially", lambda u, t: blend(COPPER, (0.1, 0.4, 0.35),
+                  np.expm1(4 * u) / 54 * EVEN), {}),
+    "two-paced": ("half of it starts half-way", lambda u, t: blend(COPPER, GREEN,
+                  np.where(COARSE > 0, u, np.clip(2 * u - 1, 0, 1))), {}),
+    "speeding": ("twenty times as fast from 60 % on", lambda u, t: blend(COPPER, GREEN,
+                 0.1 * u + max(0, 2 * (u - 0.6))), {}),
+    "local-swing": ("swings of 13 frames, here before there", lambda u, t: blend(COPPER, GREEN,
+                    0.5 + 0.3 * np.sin(TAU * t / 13 + 2 * COARSE)), {}),
+    "ripple": ("a wave of 30 pixels that travels", lambda u, t: blend(COPPER, GREEN,
+               0.5 + 0.4 * np.sin(TAU * (X / 30 - t / 20))), {}),
+    "square": ("to and fro by steps, on a drift", lambda u, t: blend(COPPER, GREEN,
+               0.3 * u + 0.2 * (t // 9 % 2)), {}),
+    "sawtooth": ("rises for 22 frames and falls back, over and over", lambda u, t: blend((0.6, 0.5, 0.4),
+                 (0.4, 0.35, 0.3), t % 22 / 22 * (1 + 0.2 * COARSE)), {}),
+    "walk": ("a color that walks at random", lambda u, t:
+             np.array((0.5, 0.45, 0.4)) + WALK[t] + 0.05 * COARSE[..., None], {}),
+    "blinking": ("a spot that blinks", lambda u, t: np.where(
+                 (((X - 64) ** 2 + (Y - 48) ** 2 < 60) & (t % 5 == 0))[..., None], 0.95,
+                 blend(COPPER, GREEN, u * EVEN)), {}),
+    "passing": ("a dark bar passes in front", lambda u, t: np.where((abs(X - t + 20) < 8)[..., None], 0.15,
+                blend(COPPER, GREEN, u * EVEN)), {}),
+    "glints": ("highlights that move about", lambda u, t: np.clip(blend(COPPER, GREEN, u * EVEN)
+               + 0.5 * soft((FINE - 1.5 + 0.8 * np.sin(0.9 * t)) * 6)[..., None], 0, 1), {}),
+    "exposure": ("the camera changes its exposure three times", lambda u, t: blend(COPPER, GREEN, u * EVEN),
+                 {"light": lambda u: 1 if u < 0.3 else 1.25 if u < 0.55 else 0.9 if u < 0.8 else 1.1}),
+    "balance": ("the white balance drifts by 20 %", lambda u, t: blend(COPPER, GREEN, 0.3 * u * EVEN)
+                * np.array((1 + 0.1 * u, 1, 1 - 0.1 * u)), {}),
+}
+SECOND_ON_BLACK = ("sawtooth", "walk", "exposure", "balance")
+
 
 def record(path, color, seed, noise=0.006, light=lambda u: 1, jitter=0, shake=0, levels=255, backdrop=0.35):
     random = np.random.default_rng(seed)
     grain = 1 + 0.05 * pattern(1.5, random)
     out = subprocess.Popen(
         ["ffmpeg", "-nostdin", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
-         f"{WIDTH}x{HEIGHT}", "-r", "10", "-i", "-", "-c:v", "ffv1", "-pix_fmt", "bgr0", path],
+         f"{WIDTH}x{HEIGHT}", "-r", "10", "-i", "-", "-c:v", "ffv1", "-pix_fmt", "bgr0", "-fflags", "+bitexact", path],
         stdin=subprocess.PIPE)
     for t in range(FRAMES):
         u = t / (FRAMES - 1)
@@ -115,13 +152,14 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    for seed, (name, (what, color, camera)) in enumerate(SURFACES.items()):
-        record(folder / f"{name}.mkv", color, 100 + seed, **camera)
-        print(f"{name}\t{what}")
-        if name in ON_BLACK:
-            record(folder / f"{name}-on-black.mkv", color, 200, jitter=0.01, backdrop=0.02,
-                   **{k: v for k, v in camera.items() if k != "jitter"})
-            print(f"{name}-on-black\tthe same on black, the exposure jitters by 1 %")
+    for surfaces, on_black, first, jitter in ((SURFACES, ON_BLACK, 100, 0.01), (SECOND, SECOND_ON_BLACK, 300, 0)):
+        for seed, (name, (what, color, camera)) in enumerate(surfaces.items(), first):
+            record(folder / f"{name}.mkv", color, seed, **camera)
+            print(f"{name}\t{what}")
+            if name in on_black:
+                dark = {**camera, "jitter": jitter, "backdrop": 0.02}
+                record(folder / f"{name}-on-black.mkv", color, first + 100, **dark)
+                print(f"{name}-on-black\tthe same on black" + (", the exposure jitters by 1 %" if jitter else ""))
 
 
 if __name__ == "__main__":
