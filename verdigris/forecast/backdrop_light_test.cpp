@@ -37,19 +37,8 @@ Mask plate_mask() {
     return mask;
 }
 
-using Scene = std::function<Image<SrgbF>(int)>;  // frame t, without noise
-
 Context seen(const Scene& scene, int n, double sigma) {
-    std::mt19937 random(1);
-    Context c;
-    for (int t = 0; t < n; ++t) {
-        c.frames.push_back(scene(t));
-        add_noise(c.frames.back(), sigma, random);
-    }
-    c.specimen = plate_mask();
-    c.sigma = sigma;
-    c.tau = 2.4 * sigma;
-    return c;
+    return seen_through_noise(scene, n, plate_mask(), sigma);
 }
 
 TEST(BackdropLight, IsFoundThoughAMinorityMoves) {

@@ -39,19 +39,8 @@ Mask plate_mask() {
     return mask;
 }
 
-using Scene = std::function<Image<SrgbF>(int)>;  // frame t, without noise
-
 Context seen(const Scene& scene, int n, double sigma = 0.003, unsigned seed = 1) {
-    std::mt19937 random(seed);
-    Context c;
-    for (int t = 0; t < n; ++t) {
-        c.frames.push_back(scene(t));
-        add_noise(c.frames.back(), sigma, random);
-    }
-    c.specimen = plate_mask();
-    c.sigma = sigma;
-    c.tau = 2.4 * sigma;
-    return c;
+    return seen_through_noise(scene, n, plate_mask(), sigma, seed);
 }
 
 /// Sums of squared errors over the specimen and units 1 to 10.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <utility>
 
 #include "verdigris/forecast/affine.h"
 #include "verdigris/forecast/forecast.h"
@@ -74,6 +75,23 @@ inline double largest_difference(const Image<SrgbF>& a, const Image<SrgbF>& b) {
                       std::abs(double(p.g) - double(q.g)), std::abs(double(p.b) - double(q.b))});
     }
     return largest;
+}
+
+using Scene = std::function<Image<SrgbF>(int)>;  ///< frame t, without noise
+
+/// Its first n frames under noise.
+inline Context seen_through_noise(const Scene& scene, int n, Mask specimen, double sigma,
+                                  unsigned seed = 1) {
+    std::mt19937 random(seed);
+    Context c;
+    for (int t = 0; t < n; ++t) {
+        c.frames.push_back(scene(t));
+        add_noise(c.frames.back(), sigma, random);
+    }
+    c.specimen = std::move(specimen);
+    c.sigma = sigma;
+    c.tau = 2.4 * sigma;
+    return c;
 }
 
 inline bool same_bytes(const Image<SrgbF>& a, const Image<SrgbF>& b) {
