@@ -130,10 +130,16 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     }
     if (design.global) {
         const AffinePart part(context, moving, rest);
-        const PartMoments moments = part.moments();
-        out.all.push_back(forecast_component(part, moments, design.global_count, trends));
+        const AffinePart mean = part.mean(), slopes = part.slopes();
+        const auto add = [&](const AffinePart& one) {
+            const PartMoments moments = one.moments();
+            out.all.push_back(forecast_component(one, moments, design.global_count, trends));
+            return moments.energy;
+        };
+        // The color of all and its contrasts need not have the same future.
+        out.global_energy = add(design.split ? mean : part);
         out.all.back().common = true;
-        out.global_energy = moments.energy;
+        if (design.split) add(slopes);
         part.subtract(rest);
     }
     out.local_energy = energy_of(rest, moving);

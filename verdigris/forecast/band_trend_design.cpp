@@ -35,11 +35,10 @@ bool on_or_off(const std::string& key, std::string_view value) {
 BandTrendDesign band_trend_design(const std::string& text) {
     BandTrendDesign d;
     const std::map<std::string, bool*> parts{
-        {"light", &d.light},           {"gray", &d.gray},
-        {"relight", &d.relight},       {"global", &d.global},
-        {"local", &d.local},           {"bands", &d.bands},
-        {"slowing", &d.prior.slowing}, {"bending", &d.prior.bending},
-        {"swing", &d.prior.swing},     {"noise", &d.prior.noise}};
+        {"light", &d.light},           {"gray", &d.gray},         {"relight", &d.relight},
+        {"global", &d.global},         {"split", &d.split},       {"two-parts", &d.prior.two_parts},
+        {"local", &d.local},           {"bands", &d.bands},       {"slowing", &d.prior.slowing},
+        {"bending", &d.prior.bending}, {"swing", &d.prior.swing}, {"noise", &d.prior.noise}};
     struct Number {
         double* value;
         double least;

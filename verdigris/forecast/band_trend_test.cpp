@@ -205,6 +205,26 @@ TEST(BandTrend, EachPartIsWhatItsOwnSceneNeeds) {
     EXPECT_EQ(worth(local, seen(local, 5), ""), 1);
 }
 
+TEST(BandTrend, ContrastAndMeanColorHaveEachTheirFuture) {
+    // Contrast dies away, and all of it goes on to get darker.
+    const Scene fading = [](int t) {
+        Image<SrgbF> frame = plate(0);
+        const float contrast = std::exp(-0.3f * float(t));
+        for (SrgbF& c : frame.pixels()) {
+            const auto of = [&](float v) {
+                return 0.5f - 0.01f * float(t) + contrast * (v - 0.5f);
+            };
+            c = {of(c.r), of(c.g), of(c.b)};
+        }
+        return frame;
+    };
+    Context faded = seen(fading, 6);
+    faded.backdrop = {};
+    faded.specimen = {};
+    const std::string plain = ":gray=0", joint = ":gray=0:split=0";
+    EXPECT_GT(worth(fading, faded, joint), 1.1 * worth(fading, faded, plain));
+}
+
 TEST(BandTrend, SaysWhichFrameDoesNotCount) {
     const Scene scene = [](int t) {
         Image<SrgbF> frame = plate(0.3 * t);

@@ -135,8 +135,8 @@ void ChangePart::subtract(Increments& from) const {
 }
 
 AffinePart::AffinePart(const Context& context, const Mask& moving, const Increments& increments)
-    : ChangePart(moving), color_(mean_color(context.frames)) {
-    const AffineMoments all = affine_moments(color_, moving, increments);
+    : ChangePart(moving), color_(std::make_shared<const Image<SrgbF>>(mean_color(context.frames))) {
+    const AffineMoments all = affine_moments(*color_, moving, increments);
     // Centered, so that the ridge holds back the slopes and not the mean.
     color_moments_ = all.xx / all.count;
     const Eigen::Vector3d mean = all.xx.block<3, 1>(1, 0) / all.count;
@@ -153,11 +153,23 @@ AffinePart::AffinePart(const Context& context, const Mask& moving, const Increme
     fit_.bottomRows(3) = slopes;
 }
 
+AffinePart AffinePart::mean() const {
+    MatrixXd fit = MatrixXd::Zero(4, fit_.cols());
+    fit.row(0) = color_moments_.row(0) * fit_;
+    return {*this, std::move(fit)};
+}
+
+AffinePart AffinePart::slopes() const {
+    MatrixXd fit = fit_;
+    fit.row(0) -= color_moments_.row(0) * fit_;
+    return {*this, std::move(fit)};
+}
+
 void AffinePart::row_of(const Vector4d& fit, int y, float* out) const {
     const Eigen::Vector4f f = fit.cast<float>();
-    const SrgbF* color = color_.row(y);
+    const SrgbF* color = color_->row(y);
     const std::uint8_t* inside = moving().row(y);
-    for (int x = 0; x < color_.width(); ++x) {
+    for (int x = 0; x < color_->width(); ++x) {
         const SrgbF c = color[x];
         const float value = f[0] + f[1] * c.r + f[2] * c.g + f[3] * c.b;
         out[x] = inside[x] ? value : 0;

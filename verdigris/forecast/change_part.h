@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "verdigris/forecast/increments.h"
@@ -45,15 +47,24 @@ class ChangePart {
 class AffinePart : public ChangePart {
   public:
     AffinePart(const Context& context, const Mask& moving, const Increments& increments);
+    /// Its mean over what moves, the same for every pixel; and the rest, which depends on color and
+    /// whose mean is 0.
+    AffinePart mean() const;
+    AffinePart slopes() const;
     int increments() const override { return int(fit_.cols() / 3); }
     void row(int increment, int channel, int y, float* out) const override;
     ColorField combined(const Eigen::RowVectorXd& weights) const override;
     PartMoments moments() const override;
 
   private:
+    AffinePart(const AffinePart& of, Eigen::MatrixXd fit)
+        : ChangePart(of.moving()),
+          color_(of.color_),
+          color_moments_(of.color_moments_),
+          fit_(std::move(fit)) {}
     void row_of(const Eigen::Vector4d& fit, int y, float* out) const;
 
-    Image<SrgbF> color_;
+    std::shared_ptr<const Image<SrgbF>> color_;
     Eigen::Matrix4d color_moments_;  ///< means of the products of 1 and red, green, blue
     Eigen::MatrixXd fit_;            ///< [1 and red, green, blue x channels of increments]
 };

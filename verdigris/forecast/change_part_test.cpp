@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "verdigris/forecast/backdrop_light.h"
+#include "verdigris/forecast/context_pixels.h"
 #include "verdigris/forecast/testing.h"
 
 namespace verdigris {
@@ -44,6 +45,35 @@ double energy(const Increments& increments) {
         for (const Field& plane : d)
             for (const float v : plane) sum += double(v) * double(v);
     return sum;
+}
+
+TEST(AffinePart, IsItsMeanAndWhatDependsOnColor) {
+    const Context context = flickering();
+    const Mask moving = all_but_an_edge();
+    const Increments rest = increments_of(context, moving, {});
+    const AffinePart all(context, moving, rest), mean = all.mean(), slopes = all.slopes();
+    std::vector<float> of_all(kSide), of_mean(kSide), of_slopes(kSide);
+    for (int i = 0; i < all.increments(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            double sum = 0, first = 0;
+            for (int y = 0; y < kSide; ++y) {
+                all.row(i, k, y, of_all.data());
+                mean.row(i, k, y, of_mean.data());
+                slopes.row(i, k, y, of_slopes.data());
+                if (y == 0) first = double(of_mean[kSide - 1]);
+                for (std::size_t x = 0; x < kSide; ++x) {
+                    EXPECT_NEAR(of_mean[x] + of_slopes[x], of_all[x], 1e-6);
+                    sum += double(of_slopes[x]);
+                    EXPECT_NEAR(of_mean[x], x >= 4 ? first : 0, 1e-9);
+                }
+            }
+            EXPECT_NEAR(sum / double(count_inside(moving)), 0, 1e-7);
+        }
+    }
+    const Eigen::MatrixXd apart = mean.moments().gram + slopes.moments().gram;
+    EXPECT_LT((apart - all.moments().gram).cwiseAbs().maxCoeff(),
+              1e-9 * all.moments().gram.trace() + 1e-12);
+    EXPECT_GT(slopes.moments().gram.trace(), 0);
 }
 
 TEST(LightPart, IsAllOfAFlicker) {

@@ -21,11 +21,22 @@ struct Slowing {
     double kappa, prior;
 };
 constexpr Slowing kSlowing[] = {{0, .15}, {.02, .20}, {.05, .25}, {.1, .20}, {.2, .12}, {.5, .08}};
+// Drifts of two parts. chosen: one that slows down, or not, beside one that speeds up, as corrosion
+// does that spreads; and two that slow down at different paces.
+struct TwoParts {
+    double kappa, second_kappa, second_share;
+};
+constexpr TwoParts kTwoParts[] = {{0, -.1, .1},  {.1, -.1, .1}, {.3, -.1, .1}, {0, -.1, .5},
+                                  {.1, -.1, .5}, {.3, -.1, .5}, {0, .1, .5},   {0, .3, .5},
+                                  {.1, .3, .5},  {0, .1, .9},   {0, .3, .9},   {.1, .3, .9}};
+constexpr double kTwo = .3;  // prior weight of all of them
 constexpr double kWandering[] = {0, .3, .6, .8, .92, .98, 1};
 constexpr double kBending[] = {.5, .75, .85, .92, .96, .99};
 // Swings: frequencies as far apart as ten frames tell them, from a period of 20 units to one of 3.
 constexpr double kFrequency[] = {.05, .085, .12, .155, .19, .225, .26, .295, .33};
-constexpr double kSwinging = .95, kSwing = .1;  // rho; prior weight of all of them
+constexpr double kSwinging[] = {.95, .99};  // rho
+constexpr double kNoiseOfSwings[] = {0, .01, 1};
+constexpr double kSwing = .1;  // prior weight of all of them
 constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
 constexpr double kWalk = .1;                     // and of a level that walks at random
 constexpr double kNegligible = 1e-9;             // weight of a model
@@ -48,19 +59,24 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     const std::vector<double> noises =
         prior.noise ? std::vector<double>(std::begin(kNoise), std::end(kNoise))
                     : std::vector<double>{0};
-    const auto add_family = [&](TrendKind kind, double weight) {
+    const std::vector<double> noises_of_swings =
+        prior.noise ? std::vector<double>(std::begin(kNoiseOfSwings), std::end(kNoiseOfSwings))
+                    : std::vector<double>{0};
+    const auto add_family = [&](TrendKind kind, double weight, const std::vector<double>& etas) {
         const DriftMoments drift = drift_moments(kind, q, prior.doubt);
-        for (const double eta : noises) {
+        for (const double eta : etas) {
             kind.eta = eta;
-            add(kind, with_noise(drift, eta), weight / double(noises.size()));
+            add(kind, with_noise(drift, eta), weight / double(etas.size()));
         }
     };
     const bool bending = prior.bending && prior.drift,
-               swing = prior.swing && prior.drift && q >= kFewestForRare;
+               swing = prior.swing && prior.drift && q >= kFewestForRare,
+               two_parts = prior.two_parts && prior.slowing && prior.drift;
     const std::size_t wandering = prior.drift ? std::size(kWandering) : 1;  // the first: rho of 0
     const std::size_t families = wandering + (bending ? std::size(kBending) : 0);
     const std::size_t most =
-        slowings.size() * families * noises.size() + std::size(kFrequency) * noises.size() + 2;
+        (slowings.size() * families + std::size(kTwoParts)) * noises.size() +
+        std::size(kSwinging) * std::size(kFrequency) * noises_of_swings.size() + 2;
     models_.reserve(most);
     precisions_.resize(q, Eigen::Index(most) * q);
     log_determinants_.resize(Eigen::Index(most * variants()));
@@ -69,15 +85,25 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     for (const Slowing& slowing : slowings) {
         for (std::size_t i = 0; i < wandering; ++i)
             add_family({TrendShape::drift, false, kWandering[i], slowing.kappa},
-                       share * slowing.prior);
+                       share * slowing.prior, noises);
         if (!bending) continue;
         for (const double rho : kBending)
-            add_family({TrendShape::drift, true, rho, slowing.kappa}, share * slowing.prior);
+            add_family({TrendShape::drift, true, rho, slowing.kappa}, share * slowing.prior,
+                       noises);
+    }
+    for (std::size_t i = 0; two_parts && i < std::size(kTwoParts); ++i) {
+        TrendKind kind{TrendShape::drift, false, 1, kTwoParts[i].kappa};
+        kind.second_kappa = kTwoParts[i].second_kappa;
+        kind.second_share = kTwoParts[i].second_share;
+        add_family(kind, kTwo / double(std::size(kTwoParts)), noises);
     }
     for (std::size_t i = 0; swing && i < std::size(kFrequency); ++i) {
-        TrendKind kind{TrendShape::drift, false, kSwinging};
-        kind.period = 1 / kFrequency[i];
-        add_family(kind, kSwing / double(std::size(kFrequency)));
+        for (const double rho : kSwinging) {
+            TrendKind kind{TrendShape::drift, false, rho};
+            kind.period = 1 / kFrequency[i];
+            add_family(kind, kSwing / double(std::size(kSwinging) * std::size(kFrequency)),
+                       noises_of_swings);
+        }
     }
     add({TrendShape::walk}, walk_moments(q), kWalk);
     if (prior.noise) add({TrendShape::level, false, 0, 0, 1}, level_moments(q), prior.level);

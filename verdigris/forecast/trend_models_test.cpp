@@ -65,6 +65,47 @@ TEST(TrendModels, ABendIsFollowed) {
     EXPECT_GT(ahead[4], 5 * 2.7);  // units 1 to 5, if the last increment just went on: 13
 }
 
+TEST(TrendModels, WhatSpeedsUpDoesNotDoSoForEver) {
+    EXPECT_DOUBLE_EQ(drift_size(-0.1, 2), std::exp(0.2));
+    EXPECT_DOUBLE_EQ(drift_size(-0.1, 50), drift_size(-0.1, 3));
+    EXPECT_DOUBLE_EQ(drift_size(-0.1, -5), std::exp(-0.5));
+    EXPECT_DOUBLE_EQ(drift_size(0.1, 50), std::exp(-5));
+}
+
+TEST(TrendModels, TwoPartsEachGoOnInTheirOwnWay) {
+    // Of each pixel a part that goes on and one that dies away or has begun to spread.
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    for (const double kappa : {0.3, -0.1}) {
+        const int q = 4, ahead = 10;
+        MatrixXd parts(q, 2);
+        Eigen::Vector2d truth(ahead, 0);
+        for (int i = 0; i < q; ++i) parts.row(i) << 1, drift_size(kappa, i - q + 1);
+        for (int h = 1; h <= ahead; ++h) truth[1] += drift_size(kappa, h);
+        MatrixXd gram = MatrixXd::Zero(q, q);
+        MatrixXd amounts(2, 3000);
+        for (Eigen::Index pixel = 0; pixel < amounts.cols(); ++pixel) {
+            amounts.col(pixel) << normal(random), normal(random);
+            const VectorXd d = parts * amounts.col(pixel);
+            gram += d * d.transpose() / double(amounts.cols());
+        }
+        gram += 1e-5 * MatrixXd::Identity(q, q);
+        TrendPrior none;
+        none.two_parts = false;
+        const auto error = [&](const TrendPrior& prior) {
+            const Trend trend = TrendModels(q, prior).trend(gram, 100);
+            return (trend.weights.row(kTenUnits) * parts * amounts - truth.transpose() * amounts)
+                       .squaredNorm() /
+                   (truth.transpose() * amounts).squaredNorm();
+        };
+        EXPECT_LT(error({}), 0.02) << kappa;
+        // A bend does for what speeds up a little, and not for what dies away beside what does not.
+        if (kappa > 0) {
+            EXPECT_GT(error(none), 2 * error({}));
+        }
+    }
+}
+
 TEST(TrendModels, NoiseIsTakenBackAndNotCarriedOn) {
     // Many pixels of one level each, and white noise.
     const int n = 6;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/forecast/trend_moments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -13,6 +14,8 @@ using Eigen::VectorXd;
 
 constexpr double kTrusted = 50;  // units after which a drift may as well be another one
 constexpr double kFloor = 1e-4;  // variance that no model explains, of V
+// chosen: units for which what speeds up goes on to. Exponential growth is short of something soon.
+constexpr double kSpeedsUp = 3;
 
 double covariance_at(const TrendKind& kind, double lag) {
     const double fall = lag == 0 ? 1 : std::pow(kind.rho, lag);
@@ -21,12 +24,12 @@ double covariance_at(const TrendKind& kind, double lag) {
 }
 
 /// Variance of what a drift adds up to, for kTrendUnits ahead.
-VectorXd variance_ahead(const TrendKind& kind, double kappa) {
+VectorXd variance_ahead(const TrendKind& kind, double doubt) {
     const int last = int(kTrendUnits.back());
     std::vector<double> covariance, size;
     for (int lag = 0; lag <= last; ++lag) {
         covariance.push_back(covariance_at(kind, lag));
-        size.push_back(std::exp(-kappa * lag));
+        size.push_back(drift_size(kind.kappa, lag) * std::exp(-doubt * lag));
     }
     VectorXd out(Eigen::Index(kTrendUnits.size()));
     double sum = 0;
@@ -53,10 +56,33 @@ VectorXd units_ahead() {
 
 }  // namespace
 
+double drift_size(double kappa, double ahead) {
+    return std::exp(-kappa * (kappa < 0 ? std::min(ahead, kSpeedsUp) : ahead));
+}
+
+TrendKind second_part(const TrendKind& kind) {
+    TrendKind second = kind;
+    second.kappa = kind.second_kappa;
+    second.second_share = second.second_kappa = 0;
+    return second;
+}
+
+DriftMoments together(const DriftMoments& first, const DriftMoments& second, double second_share) {
+    const double s = second_share;
+    return {(1 - s) * first.drift + s * second.drift, (1 - s) * first.future + s * second.future,
+            (1 - s) * first.ahead + s * second.ahead};
+}
+
 DriftMoments drift_moments(const TrendKind& kind, int q, double doubt) {
+    if (kind.second_share == 0) return part_moments(kind, q, doubt);
+    return together(part_moments(kind, q, doubt), part_moments(second_part(kind), q, doubt),
+                    kind.second_share);
+}
+
+DriftMoments part_moments(const TrendKind& kind, int q, double doubt) {
     const int units = int(kTrendUnits.size());
     DriftMoments out{MatrixXd(q, q), MatrixXd::Zero(units, q), {}};
-    const auto size = [&](double back) { return std::exp(kind.kappa * back); };
+    const auto size = [&](double back) { return drift_size(kind.kappa, -back); };
     for (int i = 0; i < q; ++i) {
         for (int j = 0; j < q; ++j) {
             out.drift(i, j) =
@@ -72,8 +98,8 @@ DriftMoments drift_moments(const TrendKind& kind, int q, double doubt) {
         }
     }
     const VectorXd doubted = 1 - (-(units_ahead() / kTrusted).array().cube()).exp();
-    const VectorXd drifting = variance_ahead(kind, kind.kappa + doubt);
-    out.ahead = drifting + doubted.cwiseProduct(variance_ahead(kind, kind.kappa));
+    const VectorXd drifting = variance_ahead(kind, doubt);
+    out.ahead = drifting + doubted.cwiseProduct(variance_ahead(kind, 0));
     return out;
 }
 

@@ -28,6 +28,9 @@ struct TrendKind {
     double kappa = 0;      ///< slows down by e^-kappa per unit
     double eta = 0;        ///< variance of the white noise of frames, of V
     double period = 0;     ///< swings to and fro, in units; 0: does not
+    // Of a change of two parts, each of which keeps to a law of its own:
+    double second_share = 0;  ///< of V
+    double second_kappa = 0;
 };
 
 /// At V = 1, for q increments.
@@ -37,12 +40,21 @@ struct TrendMoments {
     Eigen::VectorXd future;       ///< [kTrendUnits] its own; the noise of both ends is in it
 };
 
+/// How large a drift of this kappa is, `ahead` units after the last frame (less than 0: before).
+/// What speeds up, with a kappa below 0, does so for a few units only.
+double drift_size(double kappa, double ahead);
+
 /// A drift without noise: the same for every eta.
 struct DriftMoments {
     Eigen::MatrixXd drift, future;  ///< as in TrendMoments, without noise
     Eigen::VectorXd ahead;
 };
-/// `doubt`: see TrendPrior.
+/// Of the first part alone, at V = 1. `doubt`: see TrendPrior.
+DriftMoments part_moments(const TrendKind& kind, int q, double doubt);
+/// Of both parts together.
+DriftMoments together(const DriftMoments& first, const DriftMoments& second, double second_share);
+/// The second part of a kind, as a kind of one part.
+TrendKind second_part(const TrendKind& kind);
 DriftMoments drift_moments(const TrendKind& kind, int q, double doubt);
 TrendMoments with_noise(const DriftMoments& drift, double eta);
 TrendMoments walk_moments(int q);

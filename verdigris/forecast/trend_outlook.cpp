@@ -21,19 +21,31 @@ double error_left(const TrendMoments& m, double eta) {
 
 }  // namespace
 
+const DriftMoments& TrendOutlook::part(const TrendKind& kind, int increments) {
+    const auto [at, is_new] =
+        drifts_.try_emplace({kind.bending, kind.rho, kind.kappa, kind.period, increments});
+    if (is_new) at->second = part_moments(kind, increments, doubt_);
+    return at->second;
+}
+
 double TrendOutlook::error_of(const TrendKind& kind, const Circumstances& c) {
     if (kind.shape == TrendShape::walk) return error_left(walk_moments(c.increments), 0);
     if (kind.shape == TrendShape::level) {
         const double eta = std::max(c.noise, 1e-6);
         return error_left(level_moments(c.increments, eta), eta);
     }
-    const auto [at, is_new] =
-        drifts_.try_emplace({kind.bending, kind.rho, kind.kappa, kind.period, c.increments});
-    if (is_new) at->second = drift_moments(kind, c.increments, doubt_);
-    // What slows down is smaller later on, and noise is not.
-    const double size = std::exp(-2 * kind.kappa * c.later);
-    const double eta = kind.eta * c.noise / size;
-    return size * error_left(with_noise(at->second, eta), eta);
+    // What slows down is smaller later on, and noise is not. What speeds up is not counted on to be
+    // larger by then.
+    const auto later = [&](double kappa) { return std::exp(-2 * std::max(kappa, 0.0) * c.later); };
+    const DriftMoments& first = part(kind, c.increments);
+    const auto left = [&](const DriftMoments& drift, double size) {
+        const double eta = kind.eta * c.noise / size;
+        return size * error_left(with_noise(drift, eta), eta);
+    };
+    if (kind.second_share == 0) return left(first, later(kind.kappa));
+    const double of_second = kind.second_share * later(kind.second_kappa),
+                 size = (1 - kind.second_share) * later(kind.kappa) + of_second;
+    return left(together(first, part(second_part(kind), c.increments), of_second / size), size);
 }
 
 double TrendOutlook::expected_error(const Trend& trend, const Circumstances& circumstances) {

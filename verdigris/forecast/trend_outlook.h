@@ -32,6 +32,7 @@ class TrendOutlook {
 
   private:
     double error_of(const TrendKind& kind, const Circumstances& c);
+    const DriftMoments& part(const TrendKind& kind, int increments);
 
     double doubt_;
     std::map<std::tuple<bool, double, double, double, int>, DriftMoments> drifts_;

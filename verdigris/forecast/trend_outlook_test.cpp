@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace verdigris {
 namespace {
@@ -13,13 +14,13 @@ using Eigen::MatrixXd;
 constexpr double kDoubt = 0.01;
 
 /// Of frames that have a steady pace of this variance and white noise of that one.
-Trend steady(int q, double pace, double noise) {
+Trend steady(int q, double pace, double noise, const TrendPrior& prior = {}) {
     MatrixXd gram = MatrixXd::Constant(q, q, pace);
     for (int i = 0; i < q; ++i) {
         gram(i, i) += 2 * noise;
         if (i > 0) gram(i, i - 1) -= noise, gram(i - 1, i) -= noise;
     }
-    return TrendModels(q).trend(gram, 100);
+    return TrendModels(q, prior).trend(gram, 100);
 }
 
 /// Mean over the next ten of the squared error of a straight line through n frames with white
@@ -66,11 +67,30 @@ TEST(TrendOutlook, OfASteadyPaceUnderNoiseTheErrorFallsAsThatOfALine) {
 }
 
 TEST(TrendOutlook, FoundInTheIncrementsThatIsSeen) {
-    const Trend trend = steady(9, 1, 1);
-    const double now = expected_error(trend, kDoubt, {9, 0, 1});
-    EXPECT_LT(expected_error(trend, kDoubt, {19, 0, 1}), 0.75 * now);
-    EXPECT_LT(expected_error(trend, kDoubt, {9, 0, 0.25}), 0.75 * now);
-    EXPECT_NEAR(frame_noise(trend), 1, 0.3);
+    TrendPrior one_part;
+    one_part.two_parts = false;
+    // What may be of two parts has more that is to be told apart, in as many increments.
+    for (const auto& [prior, share] : {std::pair(one_part, 0.75), std::pair(TrendPrior{}, 0.8)}) {
+        const Trend trend = steady(9, 1, 1, prior);
+        const double now = expected_error(trend, kDoubt, {9, 0, 1});
+        EXPECT_LT(expected_error(trend, kDoubt, {19, 0, 1}), share * now);
+        EXPECT_LT(expected_error(trend, kDoubt, {9, 0, 0.25}), 0.75 * now);
+        EXPECT_NEAR(frame_noise(trend), 1, 0.3);
+    }
+}
+
+TEST(TrendOutlook, APartThatDiesAwayLeavesTheOther) {
+    // Half of it steady, half of it falling to nothing: later on there is the steady half.
+    TrendKind both{TrendShape::drift, false, 1, 0, 0.1};
+    both.second_share = 0.5;
+    both.second_kappa = 0.3;
+    Trend trend, steady_half;
+    trend.likely = {{both, 1, 2}};
+    steady_half.likely = {{{TrendShape::drift, false, 1, 0, 0.2}, 1, 1}};
+    EXPECT_NEAR(expected_error(trend, kDoubt, {9, 60, 1}),
+                expected_error(steady_half, kDoubt, {9, 60, 1}), 1e-6);
+    EXPECT_GT(expected_error(trend, kDoubt, {9, 0, 1}),
+              1.1 * expected_error(steady_half, kDoubt, {9, 0, 1}));
 }
 
 TEST(TrendOutlook, NoRecordingForetellsARandomWalk) {
