@@ -39,7 +39,7 @@ function halfWidth({ doc: { spread }, truth }, i, age) {
     return a[k] + ((age - a[0]) / (b[0] - a[0])) * (b[k] - a[k]);
   };
   const squares = spread.common.map((c) => at(1) * c + at(2) * truth.roots[i] ** 2);
-  return 1.2815515655446004 * Math.sqrt(squares.reduce((s, v) => s + v) / 3);
+  return 1.1432148684060779 * Math.sqrt(squares.reduce((s, v) => s + v) / 3);
 }
 
 /** The color of the stage's picture at a share of its width and height. */

@@ -32,8 +32,10 @@ struct Spread {
     SpreadNode at(double horizon) const;
 };
 
-/// Half widths of an interval in standard deviations: two-sided, of the normal distribution.
-inline constexpr double kHalfWidth80 = 1.2815515655446004, kHalfWidth95 = 1.959963984540054;
+/// Half widths of an interval in standard deviations: two-sided, of Student's t with 5 degrees of
+/// freedom, scaled to unit variance. chosen: an average of models that are off by different amounts
+/// has tails, and simulated recordings have those (docs/models/bandtrend.md).
+inline constexpr double kHalfWidth80 = 1.1432148684060779, kHalfWidth95 = 1.9911641278965480;
 
 /// Standard deviation per pixel and channel into `out` (resized if needed).
 void spread_image(const Spread& spread, double horizon, Image<SrgbF>& out);

@@ -6,8 +6,9 @@ import { lawAt } from "./law";
 import { magmaTexture } from "./magma";
 import { laidOver } from "./uncertainty_shaders";
 
-/** Half width of the nominal 80 % interval in standard deviations: two-sided, normal. */
-export const kHalfWidth80 = 1.2815515655446004;
+/** Half width of the nominal 80 % interval in standard deviations: two-sided, Student's t with 5
+ * degrees of freedom at unit variance. */
+export const kHalfWidth80 = 1.1432148684060779;
 
 /** What all pixels share (mean of the channels) and what each has for itself, at an age. */
 export function variances(spread: SpreadDocument, age: number): [number, number] {
