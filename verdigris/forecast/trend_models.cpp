@@ -5,6 +5,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace verdigris {
 namespace {
@@ -40,6 +42,7 @@ constexpr double kSwing = .1;  // prior weight of all of them
 constexpr double kNoise[] = {0, .001, .01, .1, 1, 10};
 constexpr double kWalk = .1;                     // and of a level that walks at random
 constexpr double kNegligible = 1e-9;             // weight of a model
+constexpr double kOutOfTheQuestion = 30;         // log of how much less likely than the best
 constexpr double kUnlikely = 1e-3;               // of one that is not told of
 constexpr double kEventSize[] = {10, 1e3, 1e5};  // variance, of V
 // Increments. With fewer, a swing or a step half-way would stand for any change at all.
@@ -155,7 +158,9 @@ void TrendModels::add(const TrendKind& kind, const TrendMoments& moments, double
     m.weights = moments.with_future * precision;
     m.unexplained =
         (moments.future - m.weights.cwiseProduct(moments.with_future).rowwise().sum()).cwiseMax(0);
-    auto k = Eigen::Index(at * variants());
+    const auto first = Eigen::Index(at * variants()), of_variants = Eigen::Index(variants());
+    m.shares.resize(3, of_variants - 1);
+    Eigen::Index k = first, at_share = 0;
     const auto add_variant = [&](double determinant, double log_prior) {
         log_determinants_[k] = log_determinant + determinant;
         log_priors_[k++] = std::log(prior) + log_prior;
@@ -170,10 +175,12 @@ void TrendModels::add(const TrendKind& kind, const TrendMoments& moments, double
             const Matrix2d covariance = tau * e.shape;
             const Matrix2d within = Matrix2d::Identity() + covariance * here;
             const Matrix2d share = within.inverse() * covariance;
-            m.shares.push_back(0.5 * (share + share.transpose()));
+            m.shares.col(at_share++) << share(0, 0), share(0, 1) + share(1, 0), share(1, 1);
             add_variant(std::log(within.determinant()), log_event);
         }
     }
+    m.least_log_determinant = log_determinants_.segment(first, of_variants).minCoeff();
+    m.most_log_prior = log_priors_.segment(first, of_variants).maxCoeff();
     models_.push_back(std::move(m));
 }
 
@@ -194,6 +201,51 @@ MatrixXd TrendModels::seen(const MatrixXd& gram) const {
     return out;
 }
 
+TrendModels::Evidence TrendModels::evidence(Eigen::ArrayXd squares, double count) const {
+    const double q = increments_;
+    const auto of_variants = Eigen::Index(variants());
+    const auto variants_of = [&](const auto& all, std::size_t model) {
+        return all.segment(Eigen::Index(model) * of_variants, of_variants);
+    };
+    // Most models are out of the question, which one logarithm tells: no variant is likelier than
+    // the best of each of its terms.
+    VectorXd most(Eigen::Index(models_.size()));
+    for (std::size_t i = 0; i < models_.size(); ++i) {
+        const double least = std::max(variants_of(squares, i).minCoeff() / q, 1e-12);
+        most[Eigen::Index(i)] =
+            -0.5 * count * (q * std::log(least) + models_[i].least_log_determinant) +
+            models_[i].most_log_prior;
+    }
+    Evidence out{std::move(squares), std::vector<bool>(models_.size(), false)};
+    double best = -std::numeric_limits<double>::infinity();
+    const auto work_out = [&](std::size_t i) {
+        if (out.conceivable[i] || most[Eigen::Index(i)] < best - kOutOfTheQuestion) return;
+        out.conceivable[i] = true;
+        auto e = out.share.segment(Eigen::Index(i) * of_variants, of_variants);
+        e = -0.5 * count * (q * (e / q).max(1e-12).log() + variants_of(log_determinants_, i)) +
+            variants_of(log_priors_, i);
+        best = std::max(best, e.maxCoeff());
+    };
+    Eigen::Index likeliest = 0;
+    most.maxCoeff(&likeliest);
+    work_out(std::size_t(likeliest));
+    for (std::size_t i = 0; i < models_.size(); ++i) work_out(i);
+    double total = 0;
+    for (std::size_t i = 0; i < models_.size(); ++i) {
+        if (!out.conceivable[i]) continue;
+        auto here = out.share.segment(Eigen::Index(i) * of_variants, of_variants);
+        if (here.maxCoeff() < best - kOutOfTheQuestion) {
+            out.conceivable[i] = false;
+            continue;
+        }
+        for (double& e : here) total += e = e < best - kOutOfTheQuestion ? 0 : std::exp(e - best);
+    }
+    for (std::size_t i = 0; i < models_.size(); ++i)
+        if (out.conceivable[i])
+            out.share.segment(Eigen::Index(i) * of_variants, of_variants) /= total;
+    return out;
+}
+
 Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     const double q = increments_, scale = std::max(gram.trace() / q, 1e-30);
     const MatrixXd g = gram / scale;  // no underflow, whatever the unit
@@ -206,24 +258,21 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
         return Matrix2d{{of(e.a, 0), of(e.a, 1)}, {of(e.a, 1), of(e.b, 0)}};
     };
     VectorXd alone(Eigen::Index(models_.size()));
-    Eigen::ArrayXd evidence(log_priors_.size());  // the sum of squares first
+    Eigen::ArrayXd squares(log_priors_.size());
     for (std::size_t i = 0, k = 0; i < models_.size(); ++i) {
         const auto m = Eigen::Index(i);
         const double all = alone[m] = precision(i).cwiseProduct(g).sum();
-        evidence[Eigen::Index(k++)] = all;
+        squares[Eigen::Index(k++)] = all;
+        const double* share = models_[i].shares.data();
         for (std::size_t e = 0; e < events; ++e) {
             const Matrix2d by_event = seen_by_event(i, events_[e]);
-            for (std::size_t size = 0; size < sizes; ++size)
-                evidence[Eigen::Index(k++)] =
-                    all - models_[i].shares[e * sizes + size].cwiseProduct(by_event).sum();
+            const double first = by_event(0, 0), both = by_event(0, 1), last = by_event(1, 1);
+            for (std::size_t size = 0; size < sizes; ++size, share += 3)
+                squares[Eigen::Index(k++)] =
+                    all - (share[0] * first + share[1] * both + share[2] * last);
         }
     }
-    evidence =
-        -0.5 * count * (q * (evidence / q).max(1e-12).log() + log_determinants_) + log_priors_;
-    const double best = evidence.maxCoeff();
-    double total = 0;
-    // Most are out of the question, and an exponential of them costs as much as any.
-    for (double& e : evidence) total += e = e < best - 30 ? 0 : std::exp(e - best);
+    const Evidence evidence = this->evidence(std::move(squares), count);
 
     // V is fitted to count q values: as of a t distribution, its uncertainty widens the error.
     const double freedom = std::max(count * q, 3.0);
@@ -236,7 +285,8 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     for (std::size_t i = 0; i < models_.size(); ++i) {
         const Model& m = models_[i];
         const auto of_variants = Eigen::Index(variants());
-        const auto here = evidence.segment(Eigen::Index(i) * of_variants, of_variants) / total;
+        if (!evidence.conceivable[i]) continue;
+        const auto here = evidence.share.segment(Eigen::Index(i) * of_variants, of_variants);
         if ((here < kNegligible).all()) continue;
         const double all = alone[Eigen::Index(i)];
         const MatrixXd with_gram = m.weights * g;
@@ -254,7 +304,8 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
                 if (p < kNegligible) continue;
                 of_model += p;
                 of_event[e] += p;
-                const Matrix2d& share = m.shares[e * sizes + size];
+                const auto parts = m.shares.col(Eigen::Index(e * sizes + size));
+                const Matrix2d share{{parts[0], parts[1] / 2}, {parts[1] / 2, parts[2]}};
                 const MatrixX2d at = touched(precision(i), events_[e]);
                 const MatrixX2d toward = touched(m.weights, events_[e]);
                 const MatrixX2d taken = toward * share;

@@ -41,7 +41,7 @@ struct Trend {
 ///   T  white noise of the frames, whose differences are 2 on the diagonal and -1 beside it
 /// and, in variants of each, one step (an increment of any size, or two where it falls within the
 /// time of a frame) or one outlying frame. V is fitted. Building costs O(models q^3), once; `trend`
-/// O(models q^3): 0.3 ms at q = 9.
+/// O(models q^3): 0.4 ms at q = 9.
 class TrendModels {
   public:
     /// `increments`: at least 1.
@@ -58,8 +58,10 @@ class TrendModels {
         Eigen::MatrixXd weights;      ///< [kTrendUnits x increments]
         Eigen::VectorXd unexplained;  ///< variance of the change to come that they leave, V = 1
         /// Per event and size of it: what it takes away of the precision, in a product
-        /// precision * share * precision, on the two increments that it touches.
-        std::vector<Eigen::Matrix2d> shares;
+        /// precision * share * precision, on the two increments that it touches: of this symmetric
+        /// matrix the first, twice the second and the last value.
+        Eigen::Matrix3Xd shares;
+        double least_log_determinant = 0, most_log_prior = 0;  ///< of it and its variants
     };
     /// Something that happens to increments a and b = a + 1 (of one increment alone: a) besides
     /// what the model says.
@@ -80,6 +82,13 @@ class TrendModels {
     Eigen::MatrixXd seen(const Eigen::MatrixXd& gram) const;
     /// Of a model: it alone, and with each event at each size.
     std::size_t variants() const;
+    /// Of all variants of all models, the log of the evidence that `squares` (of the increments, by
+    /// each one's precision) is; of those that are out of the question, no one's.
+    struct Evidence {
+        Eigen::ArrayXd share;           ///< of the total, in the place of `squares`
+        std::vector<bool> conceivable;  ///< models
+    };
+    Evidence evidence(Eigen::ArrayXd squares, double count) const;
     void add(const TrendKind& kind, const TrendMoments& moments, double prior);
 
     int increments_ = 0;
