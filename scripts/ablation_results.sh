@@ -22,7 +22,8 @@ area = "specimen"
 delta_e = false
 PROTOCOL
 parts=bandtrend
-for part in light=0 relight=0 gray=0 global=0 local=0 bands=0 slowing=0 bending=0 swing=0 noise=0 events=0; do parts+=,bandtrend:$part; done
+for part in light=0 relight=0 gray=0 global=0 split=0 local=0 bands=0 slowing=0 two-parts=0 bending=0 swing=0 \
+  noise=0 events=0; do parts+=,bandtrend:$part; done
 constants=bandtrend
 for constant in confidence=0 confidence=0.5 confidence=2 global-count=1 global-count=6 band-count=30 \
   band-count=300 events=0.005 events=0.08 doubt=0 doubt=0.03; do

@@ -27,13 +27,14 @@ TEST(Coverage, OfErrorsAsTheyWereStatedIsWhatWasStated) {
     Image<SrgbF> frame(kSide, kSide), truth(kSide, kSide), sd, scratch;
     spread_image(spread, 2, sd);  // half way: twice the first node's variance
     std::mt19937 random(3);
-    std::normal_distribution<float> normal;
+    // Student's t of 5 degrees of freedom has a variance of 5/3.
+    std::student_t_distribution<float> student(5);
+    const auto error = [&] { return std::sqrt(0.6f) * student(random); };
     for (std::size_t i = 0; i < frame.pixel_count(); ++i) {
         const SrgbF s = sd.pixels()[i];
         // What cannot move has no say, though it is far off.
         truth.pixels()[i] =
-            s.r > 0 ? SrgbF{s.r * normal(random), s.g * normal(random), s.b * normal(random)}
-                    : SrgbF{1, 1, 1};
+            s.r > 0 ? SrgbF{s.r * error(), s.g * error(), s.b * error()} : SrgbF{1, 1, 1};
     }
     EXPECT_NEAR(sd(21, 0).r, std::sqrt(8e-4 * 0.5), 1e-7);
     const Coverage c = coverage_of(spread, 2, frame, truth, weights_of({}, kSide, kSide), scratch);

@@ -23,6 +23,10 @@ constexpr float kFloor = 1e-4f;
 // chosen: of the shorter side, kept from the specimen: the least that the reference region keeps.
 // The edge of a mask is off by a pixel or two, and what it leaves out ages.
 constexpr double kDistance = 0.015;
+// chosen: of the backdrop, what has to stay as it was for that which moved to be no light; and how
+// much more the specimen has to differ under the light than without.
+constexpr double kStayed = 0.05, kWorse = 4;
+constexpr double kSmall = 0.02;  // log of a gain that is not worth the question
 constexpr std::int64_t kGlance = 2000;
 constexpr double kGray = 1.0 / 7;  // chosen
 constexpr int kTable = 1024;
@@ -112,6 +116,27 @@ LightGains median_light(const Context& context, const std::vector<std::size_t>& 
     return light;
 }
 
+/// Of the gain that a frame is to be brought under the last one's light with: is it something that
+/// stands before most of the backdrop? Then the rest of the backdrop stays as it was, and the
+/// specimen does, too. Neither is so where light changes, or an exposure that follows the specimen.
+bool stands_before(const Context& context, std::size_t frame, const std::array<double, 3>& gain,
+                   const std::vector<std::size_t>& backdrop, const Mask& specimen) {
+    const auto gray = [](const SrgbF& c) {
+        return linear_from_srgb(c.r) + linear_from_srgb(c.g) + linear_from_srgb(c.b) + 3 * kFloor;
+    };
+    const Image<SrgbF>&now = context.frames[frame], &last = context.frames.back();
+    const double half = std::abs(std::log(gain[0]) + std::log(gain[1]) + std::log(gain[2])) / 6;
+    if (half < kSmall / 2) return false;
+    std::size_t stayed = 0;
+    for (const std::size_t at : backdrop) {
+        const float ratio = gray(last.pixels()[at]) / gray(now.pixels()[at]);
+        stayed += std::abs(std::log(double(ratio))) < half;
+    }
+    if (double(stayed) < kStayed * double(backdrop.size())) return false;
+    return mean_square_difference(relit(now, gain), last, specimen) >
+           kWorse * mean_square_difference(now, last, specimen);
+}
+
 /// One gain for all channels, as light and exposure have it and copper has not: channels differ by
 /// at most this share of the largest change.
 bool is_gray(const LightGains& light, double share) {
@@ -151,7 +176,15 @@ LightGains backdrop_light(const Context& context) {
     const LightGains none(context.frames.size(), {1, 1, 1});
     if (!context.specimen.empty() || !context.backdrop.empty()) {
         const auto pixels = lit_pixels(context, backdrop(context));
-        if (std::int64_t(pixels.size()) >= kFewestPixels) return median_light(context, pixels);
+        if (std::int64_t(pixels.size()) >= kFewestPixels) {
+            LightGains light = median_light(context, pixels);
+            Mask specimen = moving_mask(context);
+            for (std::size_t i = 0; i < context.backdrop.pixels().size(); ++i)
+                if (context.backdrop.pixels()[i] != 0) specimen.pixels()[i] = 0;
+            for (std::size_t i = 0; i + 1 < light.size(); ++i)
+                if (stands_before(context, i, light[i], pixels, specimen)) light[i] = {1, 1, 1};
+            return light;
+        }
     }
     const Mask all = fit_mask(context, FitPixels::all);
     const auto pixels = sample_inside(all, kMostPixels);

@@ -41,6 +41,40 @@ Context seen(const Scene& scene, int n, double sigma) {
     return seen_through_noise(scene, n, plate_mask(), sigma);
 }
 
+TEST(BackdropLight, IsNotSomebodyWhoStandsBeforeIt) {
+    // The plate fills all but a strip; of that, somebody dark hides three quarters in two frames.
+    const auto somebody = [](Image<SrgbF> frame) {
+        for (int y = 0; y < 48; ++y)
+            for (int x = 0; x < 16; ++x) frame(x, y) = {0.1f, 0.1f, 0.3f};
+        for (int y = 0; y < 8; ++y)
+            for (int x = 0; x < 60; ++x) frame(x, y) = {0.1f, 0.1f, 0.3f};
+        return frame;
+    };
+    for (const bool at_the_end : {false, true}) {
+        Context c;
+        c.specimen = plate_mask();
+        for (int t = 0; t < 6; ++t) {
+            const bool hidden = at_the_end ? t >= 4 : t == 1 || t == 2;
+            c.frames.push_back(hidden ? somebody(plate(t)) : plate(t));
+        }
+        for (const auto& gain : backdrop_light(c)) EXPECT_EQ(gain[1], 1);
+        // The same pictures under a light that falls: that is light.
+        for (std::size_t t = 0; t < 6; ++t)
+            c.frames[t] = relit(plate(double(t)), {1 - 0.1 * t, 1 - 0.1 * t, 1 - 0.1 * t});
+        EXPECT_NEAR(backdrop_light(c)[0][1], 0.5, 2e-3);
+        // And an exposure that makes up for a plate that gets darker: the plate stays as it was,
+        // and the whole backdrop does not.
+        const Image<SrgbF> backdrop = plate(0);
+        for (std::size_t t = 0; t < 6; ++t) {
+            const double gain = 1 + 0.1 * double(t);
+            c.frames[t] = relit(backdrop, {gain, gain, gain});
+            for (int y = 8; y < 56; ++y)
+                for (int x = 16; x < kSide; ++x) c.frames[t](x, y) = backdrop(x, y);
+        }
+        EXPECT_NEAR(backdrop_light(c)[0][1], 1.5, 2e-3);
+    }
+}
+
 TEST(BackdropLight, IsFoundThoughAMinorityMoves) {
     Context c;
     c.specimen = plate_mask();
