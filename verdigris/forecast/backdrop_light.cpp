@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "verdigris/forecast/backdrop_light.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +27,9 @@ constexpr double kDistance = 0.015;
 // chosen: of the backdrop, what has to stay as it was for that which moved to be no light; and how
 // much more the specimen has to differ under the light than without.
 constexpr double kStayed = 0.05, kWorse = 4;
+// chosen: how far from 1 the share is expected that the specimen has in the light of the backdrop;
+// how much it can have; and what is noise in the log of a light.
+constexpr double kShareSpread = 0.5, kMostShare = 1.5, kLightNoise = 2e-4;
 constexpr double kSmall = 0.02;  // log of a gain that is not worth the question
 constexpr std::int64_t kGlance = 2000;
 constexpr double kGray = 1.0 / 7;  // chosen
@@ -137,6 +141,34 @@ bool stands_before(const Context& context, std::size_t frame, const std::array<d
            kWorse * mean_square_difference(now, last, specimen);
 }
 
+double gray_log(const std::array<double, 3>& gain) {
+    return (std::log(gain[0]) + std::log(gain[1]) + std::log(gain[2])) / 3;
+}
+
+/// How much of what the light does to the backdrop it does to the specimen. A window that lights
+/// the wall behind and a lamp that lights the plate, a table that dries: then less than 1. From how
+/// both fluctuate about their own trends, by least squares, and drawn toward 1 as far as the change
+/// of the specimen leaves it open.
+double share_of_light(const LightGains& backdrop, const LightGains& specimen) {
+    const auto q = Eigen::Index(backdrop.size()) - 1;
+    if (q < 3) return 1;
+    Eigen::ArrayXd b(q), s(q);
+    for (Eigen::Index i = 0; i < q; ++i) {
+        const auto at = std::size_t(i);
+        b[i] = gray_log(backdrop[at]) - gray_log(backdrop[at + 1]);
+        s[i] = gray_log(specimen[at]) - gray_log(specimen[at + 1]);
+    }
+    b -= b.mean();
+    s -= s.mean();
+    const double bb = b.square().sum();
+    if (!(bb > 0)) return 1;
+    const double share = (b * s).sum() / bb;
+    const double unexplained =
+        (s - share * b).square().sum() / double(q - 2) + kLightNoise * kLightNoise;
+    const double told = bb * kShareSpread * kShareSpread;
+    return std::clamp(1 + (share - 1) * told / (told + unexplained), 0.0, kMostShare);
+}
+
 /// One gain for all channels, as light and exposure have it and copper has not: channels differ by
 /// at most this share of the largest change.
 bool is_gray(const LightGains& light, double share) {
@@ -183,6 +215,11 @@ LightGains backdrop_light(const Context& context) {
                 if (context.backdrop.pixels()[i] != 0) specimen.pixels()[i] = 0;
             for (std::size_t i = 0; i + 1 < light.size(); ++i)
                 if (stands_before(context, i, light[i], pixels, specimen)) light[i] = {1, 1, 1};
+            const auto seen_on = sample_inside(specimen, kMostPixels);
+            if (std::int64_t(seen_on.size()) < kFewestPixels) return light;
+            const double share = share_of_light(light, median_light(context, seen_on));
+            for (auto& gain : light)
+                for (double& g : gain) g = std::pow(g, share);
             return light;
         }
     }
