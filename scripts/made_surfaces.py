@@ -126,7 +126,43 @@ SECOND = {
 SECOND_ON_BLACK = ("sawtooth", "walk", "exposure", "balance")
 
 
-def record(path, color, seed, noise=0.006, light=lambda u: 1, jitter=0, shake=0, levels=255, backdrop=0.35):
+def aging(u, t):
+    return blend((0.6, 0.45, 0.35), (0.5, 0.45, 0.38), 0.5 * u * EVEN)
+
+
+def reflections():
+    random, clouds = np.random.default_rng(9), []
+    for t in range(FRAMES):
+        new = pattern(14, random)
+        clouds.append(new if t == 0 else 0.9 * clouds[-1] + np.sqrt(1 - 0.81) * new)
+    return clouds
+
+
+CLOUDS = reflections()
+
+# What somebody found who set out to break it: light that the plate shares with its backdrop in part or not at
+# all, for which the method was changed then; and two more ways to go to and fro, for which it was not.
+THIRD = {
+    "dusk-behind": ("the wall behind dims once, the plate has a lamp", aging,
+                    {"behind": lambda u, t: 0.15 + 0.85 * soft((75 - t) / 12)}),
+    "window-behind": ("the wall's light wanders by 30 %, the plate's does not", aging,
+                      {"behind": lambda u, t: np.exp(0.2 * (np.sin(3.1 * TAU * u) + np.sin(5.3 * TAU * u + 1)))}),
+    "nearer-lamp": ("swings of 10 % on the plate are 15 % on the wall", aging,
+                    {"light": lambda u: 1 + 0.1 * np.sin(2 * TAU * u),
+                     "behind": lambda u, t: (1 + 0.15 * np.sin(2 * TAU * u)) / (1 + 0.1 * np.sin(2 * TAU * u))}),
+    "table-dries": ("the table under the plate dries", aging,
+                    {"behind": lambda u, t: 0.55 + 0.45 * soft((u - 0.4) * 12)}),
+    "somebody-behind": ("somebody walks by behind, every twelve frames", aging,
+                        {"behind": lambda u, t: np.where(abs(X - t % 12 * 28) < 45, 0.05, 1)}),
+    "clouds": ("reflections come and go within ten frames", lambda u, t: blend(
+               (0.5, 0.4, 0.35), (0.42, 0.42, 0.38), u * EVEN) + 0.05 * CLOUDS[t][..., None], {}),
+    "watered": ("watered every 30 frames, dries in between", lambda u, t: blend(
+                (0.6, 0.5, 0.4), (0.4, 0.33, 0.26), np.exp(-(t % 30) / 8) * EVEN), {}),
+}
+
+
+def record(path, color, seed, noise=0.006, light=lambda u: 1, jitter=0, shake=0, levels=255, backdrop=0.35,
+           behind=lambda u, t: 1):
     random = np.random.default_rng(seed)
     grain = 1 + 0.05 * pattern(1.5, random)
     out = subprocess.Popen(
@@ -137,6 +173,7 @@ def record(path, color, seed, noise=0.006, light=lambda u: 1, jitter=0, shake=0,
         u = t / (FRAMES - 1)
         picture = np.where(PLATE[..., None], color(u, t) * grain[..., None], backdrop)
         lit = np.clip(picture, 0, 1) ** 2.2 * light(u) * (1 + jitter * random.normal())
+        lit *= np.where(PLATE, 1, behind(u, t))[..., None]
         seen = np.clip(lit, 0, 1) ** (1 / 2.2)
         if shake:
             seen = np.roll(seen, tuple(random.integers(-shake, shake + 1, size=2)), axis=(0, 1))
@@ -152,7 +189,8 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
-    for surfaces, on_black, first, jitter in ((SURFACES, ON_BLACK, 100, 0.01), (SECOND, SECOND_ON_BLACK, 300, 0)):
+    for surfaces, on_black, first, jitter in ((SURFACES, ON_BLACK, 100, 0.01), (SECOND, SECOND_ON_BLACK, 300, 0),
+                                             (THIRD, (), 500, 0)):
         for seed, (name, (what, color, camera)) in enumerate(surfaces.items(), first):
             record(folder / f"{name}.mkv", color, seed, **camera)
             print(f"{name}\t{what}")
