@@ -27,9 +27,9 @@ constexpr double kDistance = 0.015;
 // chosen: of the backdrop, what has to stay as it was for that which moved to be no light; and how
 // much more the specimen has to differ under the light than without.
 constexpr double kStayed = 0.05, kWorse = 4;
-// chosen: how far from 1 the share is expected that the specimen has in the light of the backdrop;
-// how much it can have; and what is noise in the log of a light.
-constexpr double kShareSpread = 0.5, kMostShare = 1.5, kLightNoise = 2e-4;
+// chosen: odds that the specimen does not have all of the light of the backdrop; how much of it it
+// can have; and what is noise in the log of a light.
+constexpr double kShareOdds = 0.3, kMostShare = 1.5, kLightNoise = 2e-4;
 constexpr double kSmall = 0.02;  // log of a gain that is not worth the question
 constexpr std::int64_t kGlance = 2000;
 constexpr double kGray = 1.0 / 7;  // chosen
@@ -147,8 +147,7 @@ double gray_log(const std::array<double, 3>& gain) {
 
 /// How much of what the light does to the backdrop it does to the specimen. A window that lights
 /// the wall behind and a lamp that lights the plate, a table that dries: then less than 1. From how
-/// both fluctuate about their own trends, by least squares, and drawn toward 1 as far as the change
-/// of the specimen leaves it open.
+/// both fluctuate about their means, by least squares, and 1 as far as that does as well.
 double share_of_light(const LightGains& backdrop, const LightGains& specimen) {
     const auto q = Eigen::Index(backdrop.size()) - 1;
     if (q < 3) return 1;
@@ -162,11 +161,12 @@ double share_of_light(const LightGains& backdrop, const LightGains& specimen) {
     s -= s.mean();
     const double bb = b.square().sum();
     if (!(bb > 0)) return 1;
-    const double share = (b * s).sum() / bb;
-    const double unexplained =
-        (s - share * b).square().sum() / double(q - 2) + kLightNoise * kLightNoise;
-    const double told = bb * kShareSpread * kShareSpread;
-    return std::clamp(1 + (share - 1) * told / (told + unexplained), 0.0, kMostShare);
+    const double share = (b * s).sum() / bb, noise = double(q) * kLightNoise * kLightNoise;
+    const double with_all = (s - b).square().sum() + noise,
+                 with_share = (s - share * b).square().sum() + noise;
+    // As is the evidence of two Gaussian models whose variance is fitted.
+    const double odds = kShareOdds * std::pow(with_all / with_share, 0.5 * double(q - 2));
+    return std::clamp(1 + (share - 1) * odds / (1 + odds), 0.0, kMostShare);
 }
 
 /// One gain for all channels, as light and exposure have it and copper has not: channels differ by
