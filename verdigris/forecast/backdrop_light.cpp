@@ -120,6 +120,10 @@ LightGains median_light(const Context& context, const std::vector<std::size_t>& 
     return light;
 }
 
+double gray_log(const std::array<double, 3>& gain) {
+    return (std::log(gain[0]) + std::log(gain[1]) + std::log(gain[2])) / 3;
+}
+
 /// Of the gain that a frame is to be brought under the last one's light with: is it something that
 /// stands before most of the backdrop? Then the rest of the backdrop stays as it was, and the
 /// specimen does, too. Neither is so where light changes, or an exposure that follows the specimen.
@@ -129,7 +133,7 @@ bool stands_before(const Context& context, std::size_t frame, const std::array<d
         return linear_from_srgb(c.r) + linear_from_srgb(c.g) + linear_from_srgb(c.b) + 3 * kFloor;
     };
     const Image<SrgbF>&now = context.frames[frame], &last = context.frames.back();
-    const double half = std::abs(std::log(gain[0]) + std::log(gain[1]) + std::log(gain[2])) / 6;
+    const double half = std::abs(gray_log(gain)) / 2;
     if (half < kSmall / 2) return false;
     std::size_t stayed = 0;
     for (const std::size_t at : backdrop) {
@@ -139,10 +143,6 @@ bool stands_before(const Context& context, std::size_t frame, const std::array<d
     if (double(stayed) < kStayed * double(backdrop.size())) return false;
     return mean_square_difference(relit(now, gain), last, specimen) >
            kWorse * mean_square_difference(now, last, specimen);
-}
-
-double gray_log(const std::array<double, 3>& gain) {
-    return (std::log(gain[0]) + std::log(gain[1]) + std::log(gain[2])) / 3;
 }
 
 /// How much of what the light does to the backdrop it does to the specimen. A window that lights
@@ -210,9 +210,7 @@ LightGains backdrop_light(const Context& context) {
         const auto pixels = lit_pixels(context, backdrop(context));
         if (std::int64_t(pixels.size()) >= kFewestPixels) {
             LightGains light = median_light(context, pixels);
-            Mask specimen = moving_mask(context);
-            for (std::size_t i = 0; i < context.backdrop.pixels().size(); ++i)
-                if (context.backdrop.pixels()[i] != 0) specimen.pixels()[i] = 0;
+            const Mask specimen = specimen_of(context);
             for (std::size_t i = 0; i + 1 < light.size(); ++i)
                 if (stands_before(context, i, light[i], pixels, specimen)) light[i] = {1, 1, 1};
             const auto seen_on = sample_inside(specimen, kMostPixels);

@@ -34,14 +34,6 @@ void hold(std::vector<Component>& components, double confidence) {
 
 }  // namespace
 
-Mask specimen_of(const Context& context) {
-    Mask mask = moving_mask(context);
-    const auto backdrop = context.backdrop.pixels();
-    for (std::size_t i = 0; i < backdrop.size(); ++i)
-        if (backdrop[i] != 0) mask.pixels()[i] = 0;
-    return mask;
-}
-
 Components held_components(const Context& context, const Mask& moving, BandMethod& method) {
     Components components =
         components_of(context, moving, method.design, method.models, method.light_models);

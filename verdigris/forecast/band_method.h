@@ -24,9 +24,6 @@ struct BandMethod {
     }()};
 };
 
-/// What may move; the backdrop is held where it is known, whatever else is to be forecast.
-Mask specimen_of(const Context& context);
-
 /// The components of the change, each with where it is held.
 Components held_components(const Context& context, const Mask& moving, BandMethod& method);
 

@@ -60,6 +60,14 @@ Mask moving_mask(const Context& context) {
     return combine(context, true);
 }
 
+Mask specimen_of(const Context& context) {
+    Mask mask = moving_mask(context);
+    const auto backdrop = context.backdrop.pixels();
+    for (std::size_t i = 0; i < backdrop.size(); ++i)
+        if (backdrop[i] != 0) mask.pixels()[i] = 0;
+    return mask;
+}
+
 std::int64_t count_inside(const Mask& mask) {
     const auto pixels = mask.pixels();
     return std::count_if(pixels.begin(), pixels.end(), [](std::uint8_t v) { return v != 0; });

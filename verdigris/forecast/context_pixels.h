@@ -17,6 +17,8 @@ void check_context(const Context& context);
 Mask fit_mask(const Context& context, FitPixels pixels);
 /// Pixels that are forecast: the specimen without the clipped ones. 255 or 0, full size.
 Mask moving_mask(const Context& context);
+/// What may move; the backdrop is held where it is known, whatever else is to be forecast.
+Mask specimen_of(const Context& context);
 std::int64_t count_inside(const Mask& mask);
 
 /// Raster indices, increasing, of at most `limit` pixels inside the mask: what a statistic is taken
