@@ -75,7 +75,8 @@ void add_study(CLI::App& app, Session& session) {
     auto a = std::make_shared<Arguments>();
     CLI::App* command = study->add_subcommand(
         "transfer",
-        "Why does a network not transfer: the pattern, or the pose? And do more "
+        "Why does a network not transfer: the pattern, the pose, the camera or the kinetics? And "
+        "do more "
         "specimens help?");
     command->add_option("-o,--out", a->output, "Result folder")->required();
     command->add_option("--runs", a->runs, "Where trainings are kept (OUT-runs)");

@@ -19,6 +19,7 @@ namespace {
 
 // Numbers of patterns and days that no two uses share.
 constexpr int kOtherPattern = 1000, kTestPattern = 2000, kSecondDay = 500;
+constexpr int kStates = 1 << kTransferFactors;
 
 void check_options(const TransferStudyOptions& o) {
     const auto must = [](bool holds, const char* what) {
@@ -53,7 +54,7 @@ class Study {
         const int counted =
             int(std::ranges::count_if(options.specimens, [](int n) { return n > 1; }));
         total_ = std::int64_t(options.presets.size()) * options.seeds *
-                 (networks * (1 + counted) + 4 + int(options.specimens.size()));
+                 (networks * (1 + counted) + kStates + int(options.specimens.size()));
     }
 
     TransferStudy run() {
@@ -62,20 +63,18 @@ class Study {
         for (const std::string& preset : options_.presets) {
             for (int seed = 1; seed <= options_.seeds; ++seed) {
                 const std::vector<Entrant> one = trained(study, preset, seed, 1);
-                for (const bool same_pose : {true, false}) {
-                    for (const bool same_pattern : {true, false}) {
-                        const int pattern = same_pattern ? seed : kOtherPattern + seed;
-                        study.cells.push_back(
-                            {preset, seed, same_pose, same_pattern,
-                             scores(observed(preset, pattern, kSecondDay + seed, same_pose), one)});
-                        done();
-                    }
+                for (int state = 0; state < kStates; ++state) {
+                    const TransferChange change = transfer_change(state);
+                    const int pattern = change.pattern ? kOtherPattern + seed : seed;
+                    const Observation test = observed(preset, pattern, kSecondDay + seed, change);
+                    study.cells.push_back({preset, seed, change, scores(test, one)});
+                    done();
                 }
                 for (const int n : options_.specimens) {
                     const std::vector<Entrant> entrants =
                         n == 1 ? one : trained(study, preset, seed, n);
                     const Observation test =
-                        observed(preset, kTestPattern + seed, kSecondDay + seed, false);
+                        observed(preset, kTestPattern + seed, kSecondDay + seed, {.pose = true});
                     study.counts.push_back({preset, seed, n, scores(test, entrants)});
                     done();
                 }
@@ -87,15 +86,18 @@ class Study {
   private:
     void done() { report(progress_, "study", ++done_, total_); }
 
-    Observation observed(const std::string& preset, int specimen, int day, bool usual_pose) {
+    Observation observed(const std::string& preset, int specimen, int day,
+                         const TransferChange& change) {
         ObserveOptions options;
         options.crop.mode = CropMode::none;  // the frame is what stays where it is
         options.size = options_.size;
         options.keep = Keep::every_sample;
-        const SimulationSpec spec = transfer_spec(preset, specimen, day, usual_pose, options_.size);
+        const SimulationSpec spec = transfer_spec(preset, specimen, day, change, options_.size);
         Observation o = observe(simulated_recording(spec, progress_), options, progress_);
-        o.source_name = fmt::format("{} specimen {}, day {}{}", preset, specimen, day,
-                                    usual_pose ? "" : ", moved");
+        // Part of what a training is recognized by when it is resumed.
+        o.source_name = fmt::format(
+            "{} specimen {}, day {}{}{}{}", preset, specimen, day, change.pose ? ", moved" : "",
+            change.camera ? ", other camera" : "", change.kinetics ? ", other kinetics" : "");
         return o;
     }
 
@@ -105,7 +107,7 @@ class Study {
         std::vector<Observation> observations;
         for (int i = 0; i < n; ++i) {
             const int specimen = learned_specimen(seed, i);
-            observations.push_back(observed(preset, specimen, specimen, i % 2 == 0));
+            observations.push_back(observed(preset, specimen, specimen, {.pose = i % 2 != 0}));
         }
         EvaluationProtocol protocol = protocol_;
         std::vector<TrainingSource> sources;
@@ -167,9 +169,26 @@ class Study {
     std::int64_t done_ = 0, total_ = 0;
 };
 
-struct Square {
-    double of[2][2] = {};  ///< [same pose][same pattern]
-};
+/// Log ratios of the states of one preset, forecaster and seed.
+using States = std::array<double, kStates>;
+
+int state_of(const TransferChange& c) {
+    return int(c.pattern) | int(c.pose) << 1 | int(c.camera) << 2 | int(c.kinetics) << 3;
+}
+
+/// Mean over the states of the other factors of what changing `f` does.
+double main_effect(const States& of, int f) {
+    double sum = 0;
+    for (int i = 0; i < kStates; ++i) sum += (i >> f & 1) != 0 ? of[i] : -of[i];
+    return sum / (kStates / 2);
+}
+
+/// Mean over the states of the other factors of what changing both adds to the two alone.
+double interaction(const States& of, int f, int g) {
+    double sum = 0;
+    for (int i = 0; i < kStates; ++i) sum += (i >> f & 1) == (i >> g & 1) ? of[i] : -of[i];
+    return sum / (kStates / 4);
+}
 
 /// 97.5 % points of Student's t [Student1908], for 1 to 10 degrees of freedom and beyond.
 double student(int degrees) {
@@ -208,14 +227,40 @@ double TransferScore::log_ratio() const {
     return std::log(error / persistence);
 }
 
-SimulationSpec transfer_spec(const std::string& preset, int specimen, int day, bool usual_pose,
-                             int size) {
+TransferChange transfer_change(int number) {
+    const auto other = [number](int factor) { return (number >> factor & 1) != 0; };
+    return {other(0), other(1), other(2), other(3)};
+}
+
+std::string other_place(const std::string& preset) {
+    return preset == "air" ? "chamber" : "air";
+}
+
+SimulationSpec transfer_spec(const std::string& preset, int specimen, int day,
+                             const TransferChange& change, int size) {
     SimulationSpec spec = preset_spec(preset);
+    const SimulationSpec other = preset_spec(other_place(preset));
+    if (change.camera) {
+        spec.camera = other.camera;
+        spec.scene.light_gradient = other.scene.light_gradient;
+        spec.scene.light_direction = other.scene.light_direction;
+        spec.scene.vignette = other.scene.vignette;
+        spec.scene.glint = other.scene.glint;
+        spec.scene.glint_x = other.scene.glint_x;
+        spec.scene.glint_y = other.scene.glint_y;
+        spec.scene.glint_size = other.scene.glint_size;
+    }
+    if (change.kinetics) {
+        spec.nucleation = other.nucleation;
+        spec.oxide = other.oxide;
+        spec.environment = other.environment;
+        spec.patina = other.patina;
+    }
     spec.seed = std::uint64_t(100000 + day);
     spec.specimen_seed = std::uint64_t(specimen);
     // chosen: twice the samples' size, so that they are averages of pixels as any recording's are.
     spec.frames.width = spec.frames.height = 2 * size;
-    if (!usual_pose) {
+    if (change.pose) {
         spec.scene.tilt += 8;
         spec.scene.center_x += 0.05;
         spec.scene.center_y -= 0.05;
@@ -247,24 +292,28 @@ SeedMean seed_mean(const std::vector<double>& values) {
 }
 
 std::vector<TransferEffects> transfer_effects(const TransferStudy& study) {
-    // Log ratios by preset and forecaster, then by seed.
-    std::map<std::pair<std::string, std::string>, std::map<int, Square>> table;
+    // By preset and forecaster, then by seed.
+    std::map<std::pair<std::string, std::string>, std::map<int, States>> table;
     for (const TransferCell& c : study.cells) {
         for (const TransferScore& s : c.scores)
-            table[{c.preset, s.forecaster}][c.seed].of[c.same_pose][c.same_pattern] = s.log_ratio();
+            table[{c.preset, s.forecaster}][c.seed][state_of(c.change)] = s.log_ratio();
     }
     std::vector<TransferEffects> effects;
     for (const auto& [key, seeds] : table) {
-        std::vector<double> pose, pattern, interaction, day;
-        for (const auto& [seed, square] : seeds) {
-            const auto& l = square.of;
-            pose.push_back((l[0][1] - l[1][1] + l[0][0] - l[1][0]) / 2);
-            pattern.push_back((l[1][0] - l[1][1] + l[0][0] - l[0][1]) / 2);
-            interaction.push_back(l[0][0] - l[0][1] - l[1][0] + l[1][1]);
-            day.push_back(l[1][1]);
-        }
-        effects.push_back({key.first, key.second, seed_mean(pose), seed_mean(pattern),
-                           seed_mean(interaction), seed_mean(day)});
+        const auto over_seeds = [&seeds](const auto& value) {
+            std::vector<double> values;
+            for (const auto& [seed, states] : seeds) values.push_back(value(states));
+            return seed_mean(values);
+        };
+        TransferEffects e;
+        e.preset = key.first;
+        e.forecaster = key.second;
+        for (int f = 0; f < kTransferFactors; ++f)
+            e.of[f] = over_seeds([f](const States& s) { return main_effect(s, f); });
+        e.pattern_and_pose = over_seeds([](const States& s) { return interaction(s, 0, 1); });
+        e.camera_and_kinetics = over_seeds([](const States& s) { return interaction(s, 2, 3); });
+        e.day_only = over_seeds([](const States& s) { return s[0]; });
+        effects.push_back(std::move(e));
     }
     return effects;
 }

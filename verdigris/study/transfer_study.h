@@ -4,6 +4,7 @@
 // one thing is changed at a time.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,7 +17,6 @@ namespace verdigris {
 
 struct TransferStudyOptions {
     std::vector<NetworkKind> networks{NetworkKind::patinanet, NetworkKind::horizonnet};
-    /// Camera and kinetics change together, as they did in the paper: a preset is a place.
     std::vector<std::string> presets{"chamber", "air"};
     int seeds = 3;                           ///< source specimens per preset
     std::vector<int> specimens{1, 2, 4, 8};  ///< how many are learned from, in the second part
@@ -39,13 +39,27 @@ struct TransferScore {
     double log_ratio() const;
 };
 
-/// Part 1 (`pattern`: of the corrosion and of the brushing, all that tells specimens apart):
-/// trained on one specimen, tested on another recording of the same or of another pattern,
-/// in the same or in another pose. In every cell the day is another: noise, light, environment.
+/// What is other in a recording than in the one learned from, beside the day (noise, the light's
+/// wandering, the environment's), which is another in every recording judged on.
+struct TransferChange {
+    bool pattern = false;  ///< of the corrosion and of the brushing: all that tells specimens apart
+    bool pose = false;     ///< turned by 8 degrees, moved by 5 % of the frame, a tenth smaller
+    bool camera = false;   ///< camera and lamp are those of the other place
+    bool kinetics = false;  ///< how the film starts and grows, and the pace of the environment, too
+    bool operator==(const TransferChange&) const = default;
+};
+constexpr int kTransferFactors = 4;  ///< in the order of the fields of TransferChange
+/// All sixteen states of the factorial; of number i, bit f says whether factor f is changed.
+TransferChange transfer_change(int number);
+
+/// The place whose camera and kinetics a specimen of `preset` gets: air, or chamber for air.
+std::string other_place(const std::string& preset);
+
+/// Part 1: trained on one specimen, tested on a recording in which some things are others.
 struct TransferCell {
     std::string preset;
     int seed = 0;
-    bool same_pose = false, same_pattern = false;
+    TransferChange change;
     std::vector<TransferScore> scores;
 };
 /// Part 2: trained on several specimens (poses and patterns differ) for as many steps, tested on
@@ -69,10 +83,10 @@ struct TransferStudy {
     std::vector<Own> own;
 };
 
-/// The recording of a cell. `specimen` numbers patterns, `day` everything else; another pose is
-/// turned by 8 degrees, moved by 5 % of the frame and a tenth smaller.
-SimulationSpec transfer_spec(const std::string& preset, int specimen, int day, bool usual_pose,
-                             int size);
+/// The recording of a cell. `specimen` numbers patterns, `day` everything that wanders; of `change`
+/// the pattern is ignored, which is what `specimen` says.
+SimulationSpec transfer_spec(const std::string& preset, int specimen, int day,
+                             const TransferChange& change, int size);
 
 /// Number (pattern and day) of the i-th specimen that a network of `seed` learns from, i from 0 to
 /// 15; of no pattern and no day that any network is judged on, and of no other seed.
@@ -93,10 +107,12 @@ struct SeedMean {
 SeedMean seed_mean(const std::vector<double>& values);
 
 /// The factorial's effects per preset and forecaster, on log(error / persistence), paired by seed:
-/// how much worse it gets by changing one thing, mean over the states of the other.
+/// how much worse it gets by changing one thing, mean over the eight states of the others.
 struct TransferEffects {
     std::string preset, forecaster;
-    SeedMean pose, pattern, interaction;
+    std::array<SeedMean, kTransferFactors> of;  ///< in the order of TransferChange
+    /// What changing both adds to the sum of the two, mean over the states of the others.
+    SeedMean pattern_and_pose, camera_and_kinetics;
     /// log ratio where nothing but the day changed: what is left of what was learned.
     SeedMean day_only;
 };

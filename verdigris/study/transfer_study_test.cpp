@@ -17,7 +17,8 @@ TransferScore scored(const std::string& name, double ratio) {
     return {name, ratio, 1};
 }
 
-/// Planted: another pattern triples the error, another pose costs a tenth, nothing beyond.
+/// Planted: another pattern triples the error, another pose costs a tenth and another camera a
+/// fifth; other kinetics halve it, but not under another camera.
 TransferStudy planted(int seeds) {
     TransferStudy study;
     study.options.presets = {"chamber"};
@@ -25,15 +26,12 @@ TransferStudy planted(int seeds) {
     study.options.specimens = {1};
     for (int seed = 1; seed <= seeds; ++seed) {
         const double base = 0.4 + 0.1 * seed;
-        for (const bool pose : {true, false}) {
-            for (const bool pattern : {true, false}) {
-                const double ratio = base * (pose ? 1 : 1.1) * (pattern ? 1 : 3);
-                study.cells.push_back({"chamber",
-                                       seed,
-                                       pose,
-                                       pattern,
-                                       {scored("patinanet", ratio), scored("affinergb", 0.5)}});
-            }
+        for (int i = 0; i < 16; ++i) {
+            const TransferChange c = transfer_change(i);
+            const double ratio = base * (c.pattern ? 3 : 1) * (c.pose ? 1.1 : 1) *
+                                 (c.camera ? 1.2 : 1) * (c.kinetics && !c.camera ? 0.5 : 1);
+            study.cells.push_back(
+                {"chamber", seed, c, {scored("patinanet", ratio), scored("affinergb", 0.5)}});
         }
         study.counts.push_back(
             {"chamber", seed, 1, {scored("patinanet", 2), scored("affinergb", 0.5)}});
@@ -46,11 +44,16 @@ TEST(TransferStudy, FindsThePlantedEffects) {
     ASSERT_EQ(effects.size(), 2u);
     const TransferEffects& e = effects[1];
     EXPECT_EQ(e.forecaster, "patinanet");
-    EXPECT_NEAR(e.pattern.mean, std::log(3), 1e-12);
-    EXPECT_NEAR(e.pose.mean, std::log(1.1), 1e-12);
-    EXPECT_NEAR(e.interaction.mean, 0, 1e-12);
-    EXPECT_NEAR(e.pattern.high - e.pattern.low, 0, 1e-9);  // the same in every seed
-    EXPECT_NEAR(effects[0].pattern.mean, 0, 1e-12);
+    EXPECT_NEAR(e.of[0].mean, std::log(3), 1e-12);
+    EXPECT_NEAR(e.of[1].mean, std::log(1.1), 1e-12);
+    // In half of the states the kinetics do nothing.
+    EXPECT_NEAR(e.of[2].mean, std::log(1.2) + std::log(2) / 2, 1e-12);
+    EXPECT_NEAR(e.of[3].mean, -std::log(2) / 2, 1e-12);
+    EXPECT_NEAR(e.pattern_and_pose.mean, 0, 1e-12);
+    EXPECT_NEAR(e.camera_and_kinetics.mean, std::log(2), 1e-12);
+    EXPECT_NEAR(e.day_only.mean, (std::log(0.5) + std::log(0.6) + std::log(0.7)) / 3, 1e-12);
+    EXPECT_NEAR(e.of[0].high - e.of[0].low, 0, 1e-9);  // the same in every seed
+    EXPECT_NEAR(effects[0].of[0].mean, 0, 1e-12);
 }
 
 // Student's t for three values: mean 2, deviation 1, 4.303 / sqrt(3).
@@ -80,18 +83,31 @@ TEST(TransferStudy, LearnsFromNothingThatItIsJudgedOn) {
 }
 
 TEST(TransferStudy, SpecsChangeOneThingAtATime) {
-    const SimulationSpec a = transfer_spec("chamber", 1, 1, true, 32),
-                         day = transfer_spec("chamber", 1, 2, true, 32),
-                         pattern = transfer_spec("chamber", 7, 1, true, 32),
-                         pose = transfer_spec("chamber", 1, 1, false, 32);
+    const SimulationSpec a = transfer_spec("chamber", 1, 1, {}, 32),
+                         day = transfer_spec("chamber", 1, 2, {}, 32),
+                         pattern = transfer_spec("chamber", 7, 1, {.pattern = true}, 32),
+                         pose = transfer_spec("chamber", 1, 1, {.pose = true}, 32),
+                         camera = transfer_spec("chamber", 1, 1, {.camera = true}, 32),
+                         kinetics = transfer_spec("chamber", 1, 1, {.kinetics = true}, 32);
     EXPECT_EQ(a.pattern_seed(), day.pattern_seed());
     EXPECT_NE(a.seed, day.seed);
     EXPECT_NE(a.pattern_seed(), pattern.pattern_seed());
     EXPECT_EQ(a.seed, pattern.seed);
     EXPECT_NE(a.scene.tilt, pose.scene.tilt);
     EXPECT_EQ(a.pattern_seed(), pose.pattern_seed());
-    check_spec(pose);
-    check_spec(transfer_spec("air", 1, 1, false, 32));
+    const SimulationSpec air = preset_spec("air");
+    EXPECT_EQ(camera.camera.light_drift, air.camera.light_drift);
+    EXPECT_EQ(camera.scene.light_direction, air.scene.light_direction);
+    EXPECT_EQ(camera.scene.tilt, a.scene.tilt);
+    EXPECT_EQ(camera.oxide.initial_nm, a.oxide.initial_nm);
+    EXPECT_EQ(kinetics.oxide.initial_nm, air.oxide.initial_nm);
+    EXPECT_EQ(kinetics.environment.noise, air.environment.noise);
+    EXPECT_EQ(kinetics.camera.light_drift, a.camera.light_drift);
+    EXPECT_EQ(kinetics.susceptibility.drip, a.susceptibility.drip);  // that is the pattern's
+    for (const char* preset : {"chamber", "air"}) {
+        for (int i = 0; i < 16; ++i)
+            check_spec(transfer_spec(preset, 1, 1, transfer_change(i), 32));
+    }
 }
 
 TEST(TransferReport, SaysWhatTheIntervalsAllow) {
@@ -99,10 +115,10 @@ TEST(TransferReport, SaysWhatTheIntervalsAllow) {
     check_report(transfer_report(study));
     const std::vector<std::string> said = transfer_sentences(study);
     ASSERT_EQ(said.size(), 1u);
-    EXPECT_NE(said[0].find("Another pattern: 3.00 times the error"), std::string::npos) << said[0];
+    EXPECT_NE(said[0].find("another pattern: 3.00 times the error"), std::string::npos) << said[0];
     TransferStudy noisy = study;
     for (std::size_t i = 0; i < noisy.cells.size(); ++i)
-        noisy.cells[i].scores[0].error *= i % 3 == 0 ? 4 : 0.5;
+        noisy.cells[i].scores[0].error *= i % 3 == 0 ? 20 : 0.1;
     EXPECT_NE(transfer_sentences(noisy)[0].find("not told from none"), std::string::npos)
         << transfer_sentences(noisy)[0];
 }
@@ -119,7 +135,7 @@ TEST(TransferStudy, RunsAndResumes) {
     options.threads = 1;
     const ScratchFolder folder;
     const TransferStudy first = run_transfer_study(options, folder.path());
-    EXPECT_EQ(first.cells.size(), 4u);
+    EXPECT_EQ(first.cells.size(), 16u);
     EXPECT_EQ(first.counts.size(), 2u);
     EXPECT_EQ(first.own.size(), 1u);
     const TransferStudy second = run_transfer_study(options, folder.path());
