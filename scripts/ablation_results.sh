@@ -26,7 +26,7 @@ for part in light=0 relight=0 gray=0 global=0 split=0 local=0 bands=0 slowing=0 
   noise=0 events=0; do parts+=,bandtrend:$part; done
 constants=bandtrend
 for constant in confidence=0 confidence=0.5 confidence=2 global-count=1 global-count=6 band-count=30 \
-  band-count=300 events=0.005 events=0.08 doubt=0 doubt=0.03; do
+  band-count=300 events=0.005 events=0.08 doubt=0 doubt=0.03 caution=0 caution=0.5; do
   constants+=,bandtrend:$constant
 done
 

@@ -27,7 +27,7 @@ std::vector<Uncertainty> uncertainty_of(const Delivery& delivery) {
     for (const double h : delivery.horizons) {
         const SpreadNode at = spread.at(h);
         const double mean = std::sqrt(at.common), pixel = std::sqrt(at.common + at.own);
-        list.push_back({h, kHalfWidth80 * mean, kHalfWidth95 * mean, kHalfWidth80 * pixel,
+        list.push_back({h, kMeanHalfWidth80 * mean, kMeanHalfWidth95 * mean, kHalfWidth80 * pixel,
                         kHalfWidth95 * pixel});
     }
     return list;

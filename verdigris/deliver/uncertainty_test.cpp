@@ -20,7 +20,7 @@ TEST(Uncertainty, IsTheSpreadAtTheDeliveredHorizons) {
     ASSERT_EQ(list.size(), 2u);
     EXPECT_EQ(codes_text(list[0].pixel80), "5.7");
     EXPECT_EQ(codes_text(list[1].pixel80), "11");
-    EXPECT_NEAR(255 * list[0].mean80, 3 * kHalfWidth80, 1e-9);
+    EXPECT_NEAR(255 * list[0].mean80, 3 * kMeanHalfWidth80, 1e-9);
     EXPECT_NEAR(255 * list[0].pixel95, 5 * kHalfWidth95, 1e-9);
     EXPECT_NEAR(255 * list[1].pixel80, 10 * kHalfWidth80, 1e-9);
     EXPECT_EQ(uncertainty_sentence(list),

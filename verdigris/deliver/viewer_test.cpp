@@ -84,7 +84,7 @@ TEST(ViewerJson, TellsHowFarOffTheHorizonsMayBe) {
     const Json list = Json::parse(viewer_json(made.delivery))["uncertainty"];
     ASSERT_EQ(list.size(), made.delivery.horizons.size());
     EXPECT_EQ(list[1]["horizon"], 20);
-    EXPECT_NEAR(list[1]["mean_95"].get<double>(), 0.02 * kHalfWidth95, 1e-12);
+    EXPECT_NEAR(list[1]["mean_95"].get<double>(), 0.02 * kMeanHalfWidth95, 1e-12);
     EXPECT_NEAR(list[0]["pixel_80"].get<double>(), 0.01 * kHalfWidth80, 1e-12);
 }
 

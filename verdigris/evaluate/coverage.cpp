@@ -33,8 +33,8 @@ Coverage coverage_of(const Spread& spread, double h, const Image<SrgbF>& frame,
     const std::array<double, 3> sd{double(of_mean.r), double(of_mean.g), double(of_mean.b)};
     out = {inside80 / (3 * pixels), inside95 / (3 * pixels), 0, 0};
     for (std::size_t c = 0; c < 3; ++c) {
-        out.mean80 += (std::abs(error[c] / pixels) <= kHalfWidth80 * sd[c]) / 3.0;
-        out.mean95 += (std::abs(error[c] / pixels) <= kHalfWidth95 * sd[c]) / 3.0;
+        out.mean80 += (std::abs(error[c] / pixels) <= kMeanHalfWidth80 * sd[c]) / 3.0;
+        out.mean95 += (std::abs(error[c] / pixels) <= kMeanHalfWidth95 * sd[c]) / 3.0;
     }
     return out;
 }

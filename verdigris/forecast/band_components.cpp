@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "verdigris/forecast/backdrop_light.h"
+#include "verdigris/forecast/cautious_trend.h"
 #include "verdigris/forecast/change_part.h"
 #include "verdigris/forecast/context_pixels.h"
 #include "verdigris/pixels/parallel_rows.h"
@@ -34,12 +35,13 @@ Eigen::MatrixX3d log_steps(const LightGains& light) {
 }
 
 Component forecast_component(const ChangePart& part, const PartMoments& moments, double count,
-                             const TrendModels& models) {
+                             const TrendModels& models, double caution = 0) {
     Component c;
     c.count = count;
     c.increments = moments.gram;
     if (!(c.increments.trace() > 0)) return c;
     c.trend = models.trend(c.increments, count);
+    be_cautious(c.trend, c.increments, caution);
     const FewTerms few = few_terms(c.trend.weights, c.increments);
     c.laws = few.laws;
     c.gram = few.parts * c.increments * few.parts.transpose();
@@ -125,21 +127,23 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     }
     if (design.light && design.gray && !shows_light(context)) {
         const LightPart part(context, moving, rest);
-        add_light(forecast_component(part, part.moments(), design.global_count, trends));
+        add_light(
+            forecast_component(part, part.moments(), design.global_count, trends, design.caution));
         part.subtract(rest);
     }
     if (design.global) {
         const AffinePart part(context, moving, rest);
         const AffinePart mean = part.mean(), slopes = part.slopes();
-        const auto add = [&](const AffinePart& one) {
+        const auto add = [&](const AffinePart& one, double caution) {
             const PartMoments moments = one.moments();
-            out.all.push_back(forecast_component(one, moments, design.global_count, trends));
+            out.all.push_back(
+                forecast_component(one, moments, design.global_count, trends, caution));
             return moments.energy;
         };
         // The color of all and its contrasts need not have the same future.
-        out.global_energy = add(design.split ? mean : part);
+        out.global_energy = add(design.split ? mean : part, design.caution);
         out.all.back().common = true;
-        if (design.split) add(slopes);
+        if (design.split) add(slopes, 0);
         part.subtract(rest);
     }
     out.local_energy = energy_of(rest, moving);

@@ -44,9 +44,10 @@ BandTrendDesign band_trend_design(const std::string& text) {
         double least;
     };
     const std::map<std::string, Number> numbers{
-        {"events", {&d.prior.event, 0}},        {"doubt", {&d.prior.doubt, 0}},
-        {"level", {&d.prior.level, 1e-6}},      {"confidence", {&d.confidence, 0}},
-        {"global-count", {&d.global_count, 1}}, {"band-count", {&d.largest_count, 1}}};
+        {"events", {&d.prior.event, 0}},      {"doubt", {&d.prior.doubt, 0}},
+        {"level", {&d.prior.level, 1e-6}},    {"confidence", {&d.confidence, 0}},
+        {"caution", {&d.caution, 0}},         {"global-count", {&d.global_count, 1}},
+        {"band-count", {&d.largest_count, 1}}};
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find(':', at + 1), text.size());
         const std::size_t equal = std::min(text.find('=', at), end);

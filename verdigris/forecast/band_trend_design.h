@@ -33,14 +33,17 @@ struct BandTrendDesign {
     double global_count = 2;     ///< a global drift has few independent parts: light, and color
     double largest_count = 100;  ///< neighbors are never as independent as they look
     double confidence = 1;       ///< standard deviations; where a trend is held
+    /// What risk costs where all of the specimen shares a change, so that nothing averages out
+    /// (be_cautious).
+    double caution = 0.2;
     TrendPrior prior;
 };
 
 /// For ablations: "" is the method as it is; ":bands=0:confidence=0.5" differs in what is named.
 /// Keys: light, relight, gray, global, split, local, bands, slowing, two-parts, bending, swing,
 /// noise (0 or 1);
-/// events, doubt, confidence, level, global-count, band-count (numbers of 0 and more; counts of 1
-/// and more). Throws Error{usage} naming the key.
+/// events, doubt, confidence, caution, level, global-count, band-count (numbers of 0 and more;
+/// counts of 1 and more). Throws Error{usage} naming the key.
 BandTrendDesign band_trend_design(const std::string& text);
 
 }  // namespace verdigris

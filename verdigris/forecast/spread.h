@@ -36,6 +36,9 @@ struct Spread {
 /// freedom, scaled to unit variance. chosen: an average of models that are off by different amounts
 /// has tails, and simulated recordings have those (docs/models/bandtrend.md).
 inline constexpr double kHalfWidth80 = 1.1432148684060779, kHalfWidth95 = 1.9911641278965480;
+/// Of the mean color: through the same 80 %, with the tails of 3 degrees of freedom (t at 97.5 %
+/// and 90 %: 3.1824 and 1.6377). chosen: it has fewer parts to average out (as above).
+inline constexpr double kMeanHalfWidth80 = kHalfWidth80, kMeanHalfWidth95 = 2.2215;
 
 /// Standard deviation per pixel and channel into `out` (resized if needed).
 void spread_image(const Spread& spread, double horizon, Image<SrgbF>& out);

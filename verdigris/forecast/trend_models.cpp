@@ -156,6 +156,7 @@ void TrendModels::add(const TrendKind& kind, const TrendMoments& moments, double
     Model m;
     m.kind = kind;
     m.weights = moments.with_future * precision;
+    m.level = -kind.eta * precision.row(increments_ - 1);
     m.unexplained =
         (moments.future - m.weights.cwiseProduct(moments.with_future).rowwise().sum()).cwiseMax(0);
     const auto first = Eigen::Index(at * variants()), of_variants = Eigen::Index(variants());
@@ -280,6 +281,7 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
     const auto units = Eigen::Index(kTrendUnits.size());
     Trend out;
     out.weights = MatrixXd::Zero(units, increments_);
+    out.level = Eigen::RowVectorXd::Zero(increments_);
     VectorXd square = VectorXd::Zero(units), left = VectorXd::Zero(units);
     std::vector<double> of_event(events, 0);
     for (std::size_t i = 0; i < models_.size(); ++i) {
@@ -311,6 +313,7 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
                 const MatrixX2d taken = toward * share;
                 const double rest = all - share.cwiseProduct(by_event).sum();
                 out.weights -= p * taken * at.transpose();
+                out.level -= p * touched(m.level, events_[e]) * share * at.transpose();
                 square += p * (plain - 2 * taken.cwiseProduct(with_gram * at).rowwise().sum() +
                                taken.cwiseProduct(taken * by_event).rowwise().sum());
                 left += p * rest / q * (m.unexplained + taken.cwiseProduct(toward).rowwise().sum());
@@ -318,6 +321,7 @@ Trend TrendModels::trend(const MatrixXd& gram, double count) const {
             }
         }
         out.weights += of_model * m.weights;
+        out.level += of_model * m.level;
         if (of_model >= kUnlikely)
             out.likely.push_back({m.kind, of_model, scale * widened * variance / of_model});
     }

@@ -23,6 +23,8 @@ struct LikelyKind {
 struct Trend {
     /// [kTrendUnits x increments]: the change from the last frame on.
     Eigen::MatrixXd weights;
+    /// What of each row takes the noise of the last frame back; the rest is change that goes on.
+    Eigen::RowVectorXd level;
     /// Per kTrendUnits, in the unit of `gram`: mean square of that change, and of what the frame
     /// then will differ from it, its own noise included.
     Eigen::VectorXd change, error;
@@ -56,6 +58,7 @@ class TrendModels {
     struct Model {
         TrendKind kind;
         Eigen::MatrixXd weights;      ///< [kTrendUnits x increments]
+        Eigen::RowVectorXd level;     ///< see Trend
         Eigen::VectorXd unexplained;  ///< variance of the change to come that they leave, V = 1
         /// Per event and size of it: what it takes away of the precision, in a product
         /// precision * share * precision, on the two increments that it touches: of this symmetric
