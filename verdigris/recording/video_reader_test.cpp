@@ -218,6 +218,24 @@ TEST(VideoReader, DamageNeverEndsTheProcess) {
     }
 }
 
+// Matroska says how long all of it is, and nothing of its video.
+TEST(VideoReader, AVideoThatIsCutOffIsSaidToBe) {
+    NEEDS_FFMPEG();
+    const Scratch scratch;
+    for (const Kind& kind : {Kind{"ffv1", "-c:v ffv1", "whole.mkv"},
+                             Kind{"libvpx-vp9", "-c:v libvpx-vp9 -cpu-used 8", "whole.webm"},
+                             Kind{"mpeg4", "-c:v mpeg4 -q:v 4", "whole.avi"}}) {
+        SCOPED_TRACE(kind.file);
+        if (!have_encoder(kind.encoder)) continue;
+        ASSERT_TRUE(make_pattern(scratch / kind.file, 80, 10, kind.arguments));
+        const std::string bytes = read_bytes((scratch / kind.file).string());
+        EXPECT_FALSE(has_note(open_recording(scratch / kind.file).info().notes, "broken_tail"));
+        const auto cut = scratch / (std::string("cut-") + kind.file);
+        write_bytes(cut, bytes.substr(0, bytes.size() / 2));
+        EXPECT_TRUE(has_note(open_recording(cut).info().notes, "broken_tail"));
+    }
+}
+
 TEST(VideoReader, AChangeOfSizeIsNamedWithItsFrame) {
     NEEDS_FFMPEG();
     const Scratch scratch;

@@ -60,6 +60,17 @@ std::string container_name(const AVFormatContext& format) {
     return name.substr(0, first == std::string::npos ? first : name.find(',', first + 1));
 }
 
+// How long the container says that the video is, in seconds; 0 if it does not. Matroska says it of
+// the whole file only. What libav would guess from the bit rate is no promise.
+double promised_seconds(const VideoContainer& container) {
+    if (container.stream->duration != AV_NOPTS_VALUE)
+        return double(container.stream->duration) * av_q2d(container.stream->time_base);
+    const AVFormatContext& format = *container.format;
+    const bool said = format.duration != AV_NOPTS_VALUE &&
+                      format.duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
+    return said ? double(format.duration) / AV_TIME_BASE : 0;
+}
+
 // What the container announces and the file does not hold.
 void note_broken_tail(const VideoContainer& container, const VideoIndex& index, Statuses& notes) {
     const std::int64_t here = std::int64_t(index.packets.size());
@@ -68,9 +79,8 @@ void note_broken_tail(const VideoContainer& container, const VideoIndex& index, 
     if (mp4 && index.promised > here) {
         announced = std::to_string(index.promised) + " frames are announced, " +
                     std::to_string(here) + " are there";
-    } else if (container.stream->duration != AV_NOPTS_VALUE && index.has_times) {
-        const double promised =
-            double(container.stream->duration) * av_q2d(container.stream->time_base);
+    } else if (index.has_times) {
+        const double promised = promised_seconds(container);
         // chosen: 5 % and 2 s; headers are written before the end is known, and round.
         if (promised - index.times.back() > std::max(2.0, 0.05 * promised)) {
             announced = std::to_string(std::lround(promised)) + " s are announced, " +
