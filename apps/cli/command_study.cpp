@@ -46,6 +46,7 @@ void run_transfer(Session& session, const Arguments& a) {
     }
     if (!a.presets.empty()) options.presets = parts_of(a.presets);
     options.threads = session.threads;
+    check_transfer_options(options);
     // Beside the results and not in them: trainings are kept from run to run.
     fs::path folder = fs::path(a.output);
     if (!folder.has_filename()) folder = folder.parent_path();

@@ -21,22 +21,6 @@ namespace {
 constexpr int kOtherPattern = 1000, kTestPattern = 2000, kSecondDay = 500;
 constexpr int kStates = 1 << kTransferFactors;
 
-void check_options(const TransferStudyOptions& o) {
-    const auto must = [](bool holds, const char* what) {
-        if (!holds) throw Error(ErrorCode::usage, what);
-    };
-    must(!o.networks.empty() && !o.presets.empty(), "a study needs a network and a preset");
-    for (auto i = o.networks.begin(); i != o.networks.end(); ++i)
-        must(std::find(o.networks.begin(), i, *i) == i, "a network is named twice");
-    must(o.seeds >= 1 && o.seeds <= 50, "seeds must be 1 to 50");
-    must(o.size >= 16 && o.size <= 256 && o.size % 8 == 0,
-         "the study's size must be 16 to 256, a multiple of 8");
-    must(o.epochs >= 1 && o.epochs <= 1000, "epochs must be 1 to 1000");
-    must(o.test_windows >= 1 && o.train_windows >= 0, "the number of windows cannot be negative");
-    for (const int n : o.specimens)
-        must(n >= 1 && n <= 16, "a study can learn from 1 to 16 specimens at once");
-}
-
 EvaluationProtocol study_protocol(const TransferStudyOptions& o) {
     EvaluationProtocol protocol;  // the paper's grid, windows and splits
     protocol.max_windows = o.test_windows;
@@ -270,9 +254,29 @@ SimulationSpec transfer_spec(const std::string& preset, int specimen, int day,
     return spec;
 }
 
+void check_transfer_options(const TransferStudyOptions& o) {
+    const auto must = [](bool holds, const char* what) {
+        if (!holds) throw Error(ErrorCode::usage, what);
+    };
+    must(!o.networks.empty() && !o.presets.empty(), "a study needs a network and a preset");
+    for (auto i = o.networks.begin(); i != o.networks.end(); ++i)
+        must(std::find(o.networks.begin(), i, *i) == i, "a network is named twice");
+    for (auto i = o.presets.begin(); i != o.presets.end(); ++i) {
+        must(std::find(o.presets.begin(), i, *i) == i, "a preset is named twice");
+        preset_spec(*i);  // there is one
+    }
+    must(o.seeds >= 1 && o.seeds <= 50, "seeds must be 1 to 50");
+    must(o.size >= 16 && o.size <= 256 && o.size % 8 == 0,
+         "the study's size must be 16 to 256, a multiple of 8");
+    must(o.epochs >= 1 && o.epochs <= 1000, "epochs must be 1 to 1000");
+    must(o.test_windows >= 1 && o.train_windows >= 0, "the number of windows cannot be negative");
+    for (const int n : o.specimens)
+        must(n >= 1 && n <= 16, "a study can learn from 1 to 16 specimens at once");
+}
+
 TransferStudy run_transfer_study(const TransferStudyOptions& options, const fs::path& runs,
                                  const Progress& progress) {
-    check_options(options);
+    check_transfer_options(options);
     return Study(options, runs, progress).run();
 }
 

@@ -28,6 +28,8 @@ struct TransferStudyOptions {
 };
 /// Small enough to try out in a few minutes: one preset, patinanet, two seeds, 32 pixels.
 TransferStudyOptions quick_transfer_study();
+/// Throws Error{usage} in a sentence. run_transfer_study does so first.
+void check_transfer_options(const TransferStudyOptions& options);
 
 /// One forecaster on one simulated recording.
 struct TransferScore {

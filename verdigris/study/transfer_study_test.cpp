@@ -145,6 +145,11 @@ TEST(TransferStudy, RunsAndResumes) {
     options.networks.push_back(options.networks.front());
     EXPECT_THROW(run_transfer_study(options, folder.path()), Error);
     options.networks.pop_back();
+    for (const char* preset : {"chamber", "mars"}) {
+        options.presets = {"chamber", preset};
+        EXPECT_THROW(check_transfer_options(options), Error) << preset;
+    }
+    options.presets = {"chamber"};
     options.seeds = 0;
     EXPECT_THROW(run_transfer_study(options, folder.path()), Error);
 }
