@@ -161,8 +161,55 @@ THIRD = {
 }
 
 
+def shifted(image, dx, blur):
+    """Seen through a lens that blurs by so many pixels, moved to the right by `dx`."""
+    ky, kx = np.fft.fftfreq(HEIGHT)[:, None, None], np.fft.fftfreq(WIDTH)[None, :, None]
+    turn = np.exp(-2 * (np.pi * blur) ** 2 * (kx**2 + ky**2) - 1j * TAU * kx * dx)
+    return np.real(np.fft.ifft2(np.fft.fft2(image, axes=(0, 1)) * turn, axes=(0, 1)))
+
+
+SPOTS = [(r.uniform(25, 103), r.uniform(18, 78), r.uniform(0.05, 0.8))
+         for r in (np.random.default_rng(900 + i) for i in range(25))]
+FLAMES = np.random.default_rng(77).normal(size=FRAMES)
+DUST = np.random.default_rng(78).random((HEIGHT, WIDTH)) > 0.5
+
+
+def ripe(u):
+    """Round spots, each of which begins at its own time."""
+    inside = [soft((18 * (u - begins) - np.hypot(X - x, Y - y)) / 0.7) * (u > begins) for x, y, begins in SPOTS]
+    return np.max(inside, axis=0)
+
+
+# And a fourth after the third, of what happens to real cameras and other things that people film; nothing was changed for it.
+FOURTH = {
+    "creeping": ("still, the camera creeps by 0.02 pixels a frame", lambda u, t: blend(COPPER, COPPER, 0),
+                 {"seen_as": lambda lit, u, t: shifted(lit, 0.02 * t, 0.8)}),
+    "creeping-aging": ("aging, by 0.03 pixels", aging, {"seen_as": lambda lit, u, t: shifted(lit, 0.03 * t, 0.8)}),
+    "focus": ("aging, the focus breathes", aging,
+              {"seen_as": lambda lit, u, t: shifted(lit, 0, 1.1 + 0.5 * np.sin(t / 9))}),
+    "balance-hunts": ("aging, the white balance swings by 6 %", aging,
+                      {"seen_as": lambda lit, u, t: lit * (1 + 0.06 * np.sin(t / 4) * np.array([1, 0, -1]))}),
+    "fog": ("breath on the metal: it fogs and clears every 44 frames", lambda u, t: blend(
+            COPPER, (0.75, 0.75, 0.75), 0.35 * np.clip(np.sin(t / 7) * EVEN, 0, 1)), {}),
+    "interference": ("colors of a film that grows, and then rings of them", lambda u, t: np.stack(
+                     [0.45 + 0.25 * np.cos((2 + 15 * u * EVEN) * k) for k in (1, 1.2, 1.45)], -1), {}),
+    "shadow": ("aging, a soft shadow crosses every 64 frames", aging,
+               {"seen_as": lambda lit, u, t:
+                lit * (1 - 0.35 * np.exp(-(((X - (4 * t % 256 - 64)) / 40) ** 2)))[..., None]}),
+    "candle": ("aging by candlelight, which flickers by 8 %", aging,
+               {"seen_as": lambda lit, u, t: lit * (1 + 0.08 * FLAMES[t] * np.array([1, 0.9, 0.8]))}),
+    "warm-sensor": ("still, the sensor warms up and adds a little everywhere", lambda u, t: blend(COPPER, COPPER, 0),
+                    {"seen_as": lambda lit, u, t: lit + 0.03 * (1 - np.exp(-t / 25))}),
+    "ripening": ("dark spots begin here and there, and grow", lambda u, t: blend(
+                 (0.8, 0.65, 0.3), (0.3, 0.2, 0.1), ripe(u)), {}),
+    "in-patches": ("patches change and stop, each at its own time", lambda u, t: blend(
+                   COPPER, (0.35, 0.5, 0.42), 0.6 * np.minimum(1, 2.5 * u * np.exp(0.6 * COARSE))), {}),
+    "dust": ("dust settles, grain by grain", lambda u, t: blend(COPPER, (0.6, 0.6, 0.58), 0.6 * u * DUST), {}),
+}
+
+
 def record(path, color, seed, noise=0.006, light=lambda u: 1, jitter=0, shake=0, levels=255, backdrop=0.35,
-           behind=lambda u, t: 1):
+           behind=lambda u, t: 1, seen_as=lambda lit, u, t: lit):
     random = np.random.default_rng(seed)
     grain = 1 + 0.05 * pattern(1.5, random)
     out = subprocess.Popen(
@@ -174,7 +221,7 @@ def record(path, color, seed, noise=0.006, light=lambda u: 1, jitter=0, shake=0,
         picture = np.where(PLATE[..., None], color(u, t) * grain[..., None], backdrop)
         lit = np.clip(picture, 0, 1) ** 2.2 * light(u) * (1 + jitter * random.normal())
         lit *= np.where(PLATE, 1, behind(u, t))[..., None]
-        seen = np.clip(lit, 0, 1) ** (1 / 2.2)
+        seen = np.clip(seen_as(lit, u, t), 0, 1) ** (1 / 2.2)
         if shake:
             seen = np.roll(seen, tuple(random.integers(-shake, shake + 1, size=2)), axis=(0, 1))
         seen = np.round((seen + noise * random.normal(size=seen.shape)) * levels) / levels
@@ -190,7 +237,7 @@ def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     for surfaces, on_black, first, jitter in ((SURFACES, ON_BLACK, 100, 0.01), (SECOND, SECOND_ON_BLACK, 300, 0),
-                                             (THIRD, (), 500, 0)):
+                                             (THIRD, (), 500, 0), (FOURTH, (), 700, 0)):
         for seed, (name, (what, color, camera)) in enumerate(surfaces.items(), first):
             record(folder / f"{name}.mkv", color, seed, **camera)
             print(f"{name}\t{what}")
