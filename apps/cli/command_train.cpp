@@ -99,7 +99,8 @@ void run(Session& session, Arguments a) {
     }
     const fs::path folder = a.judge.output;
     std::error_code error;
-    if (fs::exists(folder / kLastFile, error) && !a.options.resume) {
+    if ((fs::exists(folder / kLastFile, error) || fs::exists(folder / kBestFile, error)) &&
+        !a.options.resume) {
         throw Error(ErrorCode::refused,
                     "holds a run already; go on with it with --resume, or choose another folder",
                     folder.string());

@@ -204,16 +204,43 @@ class Trainer {
 
     void resume_or_begin() {
         const fs::path last = folder_ / kLastFile;
+        const fs::path best = folder_ / kBestFile;
         std::error_code error;
-        if (!fs::exists(last, error)) return;
+        const bool begun = fs::exists(last, error);
+        if (!begun && !fs::exists(best, error)) return;
         if (!options_.resume) {
             throw Error(ErrorCode::refused,
                         "holds a run already; go on with it with --resume, or choose another "
                         "folder",
                         folder_.string());
         }
+        if (!begun) {
+            // This run, stopped while it first saved, begins anew; a checkpoint put here stays.
+            const Checkpoint kept = read_checkpoint(best);
+            if (!(kept.network->config() == config_)) {
+                throw Error(ErrorCode::refused, "holds another network's checkpoint",
+                            best.string());
+            }
+            refuse_another_run(kept.facts);
+            return;
+        }
         const TrainingState state = read_training_state(last, config_, module(), *optimizer_);
-        TrainingFacts same = state.facts;  // what differs from epoch to epoch
+        refuse_another_run(state.facts);
+        epochs_ = state.epochs;
+        for (const EpochRecord& e : epochs_) best_ = std::min(best_, e.validation_error);
+        // Now and not after hours: it is what the run is for.
+        if (!fs::exists(best, error)) {
+            throw Error(ErrorCode::bad_input,
+                        fmt::format("has no {} beside its {}: the best epoch so far is lost, and "
+                                    "the run cannot go on without it",
+                                    kBestFile, kLastFile),
+                        folder_.string());
+        }
+        write_file(folder_ / kMetricsFile, metrics_text(epochs_));  // may lack what was saved last
+    }
+
+    void refuse_another_run(TrainingFacts same) const {
+        // What differs from epoch to epoch is no other run.
         same.epoch = facts_.epoch;
         same.validation_error = facts_.validation_error;
         same.validation_persistence = facts_.validation_persistence;
@@ -224,17 +251,6 @@ class Trainer {
                                     fmt::join(differing_options(same, facts_), ", ")),
                         folder_.string());
         }
-        epochs_ = state.epochs;
-        for (const EpochRecord& e : epochs_) best_ = std::min(best_, e.validation_error);
-        // Now and not after hours: it is what the run is for.
-        if (!fs::exists(folder_ / kBestFile, error)) {
-            throw Error(ErrorCode::bad_input,
-                        fmt::format("has no {} beside its {}: the best epoch so far is lost, and "
-                                    "the run cannot go on without it",
-                                    kBestFile, kLastFile),
-                        folder_.string());
-        }
-        write_file(folder_ / kMetricsFile, metrics_text(epochs_));  // may lack what was saved last
     }
 
     /// Fills in the loss and the time of a step.

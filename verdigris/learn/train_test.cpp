@@ -239,6 +239,33 @@ TEST(TrainingRun, GoesOnOnlyWithWhatItHad) {
               std::string::npos);
 }
 
+// A disk that fills between the two files of the first epoch leaves one; so does a checkpoint that
+// somebody keeps.
+TEST(TrainingRun, DoesNotOverwriteACheckpointThatIsNotItsOwn) {
+    const EvaluationProtocol protocol = small_protocol();
+    const Observation o = changing_recording(16, 80);
+    const std::vector<TrainingSource> source = {source_of(o, protocol)};
+    TrainOptions options = quick_options(NetworkKind::patinanet, 1);
+    const ScratchFolder folder;
+    train_network(protocol, source, options, folder.path());
+    std::filesystem::remove(folder.path() / kLastFile);
+    const auto best = read_file(folder.path() / kBestFile);
+    const auto refused = [&](const TrainOptions& given) {
+        return refusal([&] { train_network(protocol, source, given, folder.path()); });
+    };
+    EXPECT_NE(refused(options).find("holds a run already"), std::string::npos);
+    TrainOptions other = options;
+    other.resume = true, other.seed = 4;
+    EXPECT_NE(refused(other).find("differs in --seed;"), std::string::npos);
+    other = quick_options(NetworkKind::convlstm, 1), other.resume = true;
+    EXPECT_NE(refused(other).find("another network's checkpoint"), std::string::npos);
+    EXPECT_EQ(read_file(folder.path() / kBestFile), best);
+    options.resume = true;
+    train_network(protocol, source, options, folder.path());
+    EXPECT_EQ(read_file(folder.path() / kBestFile), best);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / kLastFile));
+}
+
 // Every loss was a number: nothing to choose the best epoch by, all the same.
 TEST(TrainingRun, StopsWhenTheValidationErrorIsNoNumber) {
     const EvaluationProtocol protocol = small_protocol();
