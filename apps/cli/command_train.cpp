@@ -98,13 +98,7 @@ void run(Session& session, Arguments a) {
                         : "--area specimen is for judging; a network sees and learns the frame");
     }
     const fs::path folder = a.judge.output;
-    std::error_code error;
-    if ((fs::exists(folder / kLastFile, error) || fs::exists(folder / kBestFile, error)) &&
-        !a.options.resume) {
-        throw Error(ErrorCode::refused,
-                    "holds a run already; go on with it with --resume, or choose another folder",
-                    folder.string());
-    }
+    if (!a.options.resume) refuse_to_begin_over(folder);
     a.judge.recordings = a.sources;
     const std::vector<Observation> observations = observe_all(session, a.judge);
     const EvaluationProtocol protocol = protocol_for(session, a.judge, observations);

@@ -206,15 +206,9 @@ class Trainer {
         const fs::path last = folder_ / kLastFile;
         const fs::path best = folder_ / kBestFile;
         std::error_code error;
-        const bool begun = fs::exists(last, error);
-        if (!begun && !fs::exists(best, error)) return;
-        if (!options_.resume) {
-            throw Error(ErrorCode::refused,
-                        "holds a run already; go on with it with --resume, or choose another "
-                        "folder",
-                        folder_.string());
-        }
-        if (!begun) {
+        if (!options_.resume) return refuse_to_begin_over(folder_);
+        if (!fs::exists(last, error)) {
+            if (!fs::exists(best, error)) return;
             // This run, stopped while it first saved, begins anew; a checkpoint put here stays.
             const Checkpoint kept = read_checkpoint(best);
             if (!(kept.network->config() == config_)) {
@@ -370,6 +364,15 @@ void check_train_options(const TrainOptions& o) {
     must(o.clip_norm > 0 && std::isfinite(o.clip_norm), "the gradient's limit must be above 0");
     must(o.max_windows >= 0, "the number of windows cannot be negative");
     must(o.threads >= 0, "the number of threads cannot be negative");
+}
+
+void refuse_to_begin_over(const fs::path& folder) {
+    std::error_code error;
+    if (fs::exists(folder / kLastFile, error) || fs::exists(folder / kBestFile, error)) {
+        throw Error(ErrorCode::refused,
+                    "holds a run already; go on with it with --resume, or choose another folder",
+                    folder.string());
+    }
 }
 
 TrainedNetwork train_network(const EvaluationProtocol& protocol,

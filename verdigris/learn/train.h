@@ -46,6 +46,10 @@ struct TrainedNetwork {
     std::vector<EpochRecord> epochs;
 };
 
+/// Before a run that is not resumed, and before hours are spent on reading for it. Throws
+/// Error{refused} where best.safetensors or last.safetensors is in the folder already.
+void refuse_to_begin_over(const std::filesystem::path& folder);
+
 /// Trains on `sources` (windows of all of them, mixed) and writes best.safetensors,
 /// last.safetensors and metrics.jsonl into `folder` (made if absent) after every epoch, each whole
 /// or not at all. Context, horizons, stride, splits and the foreground's threshold are the
@@ -63,9 +67,10 @@ struct TrainedNetwork {
 /// Progress stages: "load", "train" (steps of all epochs), "validate".
 /// Throws Error{usage}: options. Error{bad_input}: sources of different sizes, too few
 /// samples for a window, nothing that changes in the validation windows, a damaged state.
-/// Error{refused}: the folder holds a run of other options (named) or is being written by another
-/// process; a source twice; nothing changes in the training windows. Error{failed}: the loss or the
-/// validation error is not a number (what was saved stays), disk full.
+/// Error{refused}: the folder holds a run or a checkpoint of other options (named) or another
+/// network, or one at all and it is not resumed, or is being written by another process; a source
+/// twice; nothing changes in the training windows. Error{failed}: the loss or the validation error
+/// is not a number (what was saved stays), disk full.
 TrainedNetwork train_network(const EvaluationProtocol& protocol,
                              const std::vector<TrainingSource>& sources,
                              const TrainOptions& options, const std::filesystem::path& folder,
