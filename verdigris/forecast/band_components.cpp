@@ -103,12 +103,31 @@ const TrendModels& TrendModelsCache::of(int increments) {
     return *slot;
 }
 
+namespace {
+
+/// One walk at random and a drift that walks are hardly told apart in what has few parts behind it.
+TrendPrior without_walking(TrendPrior prior) {
+    prior.walking = false;
+    return prior;
+}
+
+/// Light goes nowhere by itself: what is known of it is where it usually is.
+TrendPrior without_drift(TrendPrior prior) {
+    prior.drift = false;
+    return prior;
+}
+
+}  // namespace
+
+BandModels::BandModels(const TrendPrior& prior)
+    : own(prior), common(without_walking(prior)), light(without_drift(prior)) {}
+
 Components components_of(const Context& context, const Mask& moving, const BandTrendDesign& design,
-                         TrendModelsCache& models, TrendModelsCache& light_models) {
+                         BandModels& models) {
     const LightGains light = design.light ? backdrop_light(context) : LightGains{};
     Increments rest = increments_of(context, moving, light);
     const int q = int(rest.size());
-    const TrendModels& trends = models.of(q);
+    const TrendModels &own = models.own.of(q), &common = models.common.of(q);
     const double area = double(count_inside(moving));
     Components out;
     const auto add_light = [&](Component made) {
@@ -121,29 +140,29 @@ Components components_of(const Context& context, const Mask& moving, const BandT
     if (corrected && design.relight) {
         // It was taken off the increments by relighting them; where it goes is another matter.
         const LightPart part(context, moving, log_steps(light));
-        Component c = forecast_component(part, part.moments(), kLightCount, light_models.of(q));
-        if (!c.terms.empty()) c.trend.error = error_if_it_goes_on(c, trends);
+        Component c = forecast_component(part, part.moments(), kLightCount, models.light.of(q));
+        if (!c.terms.empty()) c.trend.error = error_if_it_goes_on(c, common);
         add_light(std::move(c));
     }
     if (design.light && design.gray && !shows_light(context)) {
         const LightPart part(context, moving, rest);
         add_light(
-            forecast_component(part, part.moments(), design.global_count, trends, design.caution));
+            forecast_component(part, part.moments(), design.global_count, common, design.caution));
         part.subtract(rest);
     }
     if (design.global) {
         const AffinePart part(context, moving, rest);
         const AffinePart mean = part.mean(), slopes = part.slopes();
-        const auto add = [&](const AffinePart& one, double caution) {
+        const auto add = [&](const AffinePart& one, const TrendModels& trends, double caution) {
             const PartMoments moments = one.moments();
             out.all.push_back(
                 forecast_component(one, moments, design.global_count, trends, caution));
             return moments.energy;
         };
         // The color of all and its contrasts need not have the same future.
-        out.global_energy = add(design.split ? mean : part, design.caution);
+        out.global_energy = add(design.split ? mean : part, common, design.caution);
         out.all.back().common = true;
-        if (design.split) add(slopes, 0);
+        if (design.split) add(slopes, own, 0);
         part.subtract(rest);
     }
     out.local_energy = energy_of(rest, moving);
@@ -154,12 +173,12 @@ Components components_of(const Context& context, const Mask& moving, const BandT
         const SmoothPart part(rest, moving, sigma);
         const double cells = area / (4 * std::numbers::pi * sigma * sigma);
         out.all.push_back(forecast_component(part, part.moments(),
-                                             std::clamp(cells, 1.0, design.largest_count), trends));
+                                             std::clamp(cells, 1.0, design.largest_count), own));
         part.subtract(rest);
     }
     if (design.local) {
         const RestPart part(rest, moving);
-        out.all.push_back(forecast_component(part, part.moments(), design.largest_count, trends));
+        out.all.push_back(forecast_component(part, part.moments(), design.largest_count, own));
     }
     std::erase_if(out.all, [](const Component& c) { return c.terms.empty(); });
     return out;

@@ -52,6 +52,14 @@ class TrendModelsCache {
     std::map<int, std::unique_ptr<TrendModels>> made_;
 };
 
+/// What is thought possible of the parts of a change.
+struct BandModels {
+    explicit BandModels(const TrendPrior& prior);
+    TrendModelsCache own;     ///< of what places have for themselves
+    TrendModelsCache common;  ///< of what all of the specimen shares
+    TrendModelsCache light;   ///< of light that the backdrop shows
+};
+
 struct Components {
     std::vector<Component> all;  ///< from what all share to what each pixel has
     /// Mean square of the channels of the global increments, and per value of all others.
@@ -60,6 +68,6 @@ struct Components {
 };
 
 Components components_of(const Context& context, const Mask& moving, const BandTrendDesign& design,
-                         TrendModelsCache& models, TrendModelsCache& light_models);
+                         BandModels& models);
 
 }  // namespace verdigris

@@ -35,8 +35,7 @@ void hold(std::vector<Component>& components, double confidence) {
 }  // namespace
 
 Components held_components(const Context& context, const Mask& moving, BandMethod& method) {
-    Components components =
-        components_of(context, moving, method.design, method.models, method.light_models);
+    Components components = components_of(context, moving, method.design, method.models);
     if (!components.all.empty()) hold(components.all, method.design.confidence);
     return components;
 }

@@ -15,13 +15,7 @@ inline constexpr int kLongestContext = 40;
 /// What all forecasts of one forecaster have in common. For several threads at once.
 struct BandMethod {
     BandTrendDesign design;
-    TrendModelsCache models{design.prior};
-    // Light goes nowhere by itself: what is known of it is where it usually is.
-    TrendModelsCache light_models{[this] {
-        TrendPrior prior = design.prior;
-        prior.drift = false;
-        return prior;
-    }()};
+    BandModels models{design.prior};
 };
 
 /// The components of the change, each with where it is held.

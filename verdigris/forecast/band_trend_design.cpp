@@ -38,7 +38,8 @@ BandTrendDesign band_trend_design(const std::string& text) {
         {"light", &d.light},           {"gray", &d.gray},         {"relight", &d.relight},
         {"global", &d.global},         {"split", &d.split},       {"two-parts", &d.prior.two_parts},
         {"local", &d.local},           {"bands", &d.bands},       {"slowing", &d.prior.slowing},
-        {"bending", &d.prior.bending}, {"swing", &d.prior.swing}, {"noise", &d.prior.noise}};
+        {"bending", &d.prior.bending}, {"swing", &d.prior.swing}, {"noise", &d.prior.noise},
+        {"walking", &d.prior.walking}};
     struct Number {
         double* value;
         double least;

@@ -13,6 +13,7 @@ struct TrendPrior {
     bool slowing = true;    ///< drifts that slow down
     bool two_parts = true;  ///< drifts of two parts, each slowing down or speeding up by itself
     bool bending = true;    ///< drifts that bend smoothly, beside those that wander
+    bool walking = true;    ///< drifts that themselves walk at random: each keeps what it has got
     bool swing = true;      ///< drifts that swing to and fro, as day and night have it
     bool noise = true;      ///< frames with white noise
     double event = 0.02;    ///< of a step or an outlier, at each place it can have; 0: none
@@ -40,8 +41,8 @@ struct BandTrendDesign {
 };
 
 /// For ablations: "" is the method as it is; ":bands=0:confidence=0.5" differs in what is named.
-/// Keys: light, relight, gray, global, split, local, bands, slowing, two-parts, bending, swing,
-/// noise (0 or 1);
+/// Keys: light, relight, gray, global, split, local, bands, slowing, two-parts, bending, walking,
+/// swing, noise (0 or 1);
 /// events, doubt, confidence, caution, level, global-count, band-count (numbers of 0 and more;
 /// counts of 1 and more). Throws Error{usage} naming the key.
 BandTrendDesign band_trend_design(const std::string& text);

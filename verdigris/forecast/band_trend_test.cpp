@@ -126,7 +126,7 @@ TEST(BandTrend, FlickerIsToldFromAgingWithoutABackdrop) {
     for (const int n : {5, 10}) {
         // Sums: where the last frame's light is the usual one, holding still is nearly perfect.
         double with = 0, without = 0, still = 0;
-        for (unsigned seed = 1; seed <= 12; ++seed) {
+        for (unsigned seed = 1; seed <= 24; ++seed) {
             std::mt19937 random(seed);
             std::normal_distribution<double> flicker(0, 0.03);
             std::vector<double> light;
@@ -143,7 +143,7 @@ TEST(BandTrend, FlickerIsToldFromAgingWithoutABackdrop) {
                 errors_of(scene, context, band_trend({.design = band_trend_design(":gray=0")}))
                     .ours;
         }
-        EXPECT_LT(with, still) << n;
+        EXPECT_LT(with, 0.97 * still) << n;
         EXPECT_LT(with, 0.93 * without) << n;
     }
 }

@@ -50,12 +50,11 @@ class Outlook {
     /// by diffusion through themselves do, with the square root of their age. Either alone was
     /// farther off on seed 701 of the simulated presets and on real copper and clay.
     double error(const Circumstances& c) {
-        const double aged = recorded_ / (recorded_ + c.later);
         double sum = light_;
         for (const Part& p : parts_) {
             const double now = models_.expected_error(*p.trend, {c.increments, 0, c.noise});
             const double then = models_.expected_error(*p.trend, c);
-            const double slowed = now > 0 ? std::sqrt(then / now * aged) : 1;
+            const double slowed = now > 0 ? then / now : 1;
             sum += slowed * (now + p.unsure * increments_ / c.increments);
         }
         return sum;

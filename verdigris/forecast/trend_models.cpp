@@ -19,10 +19,18 @@ using Eigen::VectorXd;
 
 // The grid. chosen: coarse steps over all that is plausible; finer ones change forecasts by less
 // than a hundredth (docs/models/bandtrend.md has the sensitivity).
+// How a drift slows down: not at all, toward an end, or as a layer does that grows through itself
+// and was so many units old at the first increment.
 struct Slowing {
-    double kappa, prior;
+    double kappa, age, prior;
 };
-constexpr Slowing kSlowing[] = {{0, .15}, {.02, .20}, {.05, .25}, {.1, .20}, {.2, .12}, {.5, .08}};
+constexpr Slowing kSlowing[] = {{0, 0, .15},  {.05, 0, .2}, {.1, 0, .15},
+                                {.3, 0, .15}, {0, 1, .2},   {0, 10, .15}};
+// A drift that itself walks at random: units that it had walked for by the first increment, and how
+// what drives it slows down.
+constexpr double kWalked[] = {1, 10};
+constexpr double kWalkSlowing[] = {0, .05, .2};
+constexpr double kWalking = .1;  // prior weight of all of them
 // Drifts of two parts. chosen: one that slows down, or not, beside one that speeds up, as corrosion
 // does that spreads; and two that slow down at different paces.
 struct TwoParts {
@@ -58,7 +66,7 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     const std::vector<Slowing> slowings =
         prior.slowing && prior.drift
             ? std::vector<Slowing>(std::begin(kSlowing), std::end(kSlowing))
-            : std::vector<Slowing>{{0, 1}};
+            : std::vector<Slowing>{{0, 0, 1}};
     const std::vector<double> noises =
         prior.noise ? std::vector<double>(std::begin(kNoise), std::end(kNoise))
                     : std::vector<double>{0};
@@ -74,11 +82,14 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     };
     const bool bending = prior.bending && prior.drift,
                swing = prior.swing && prior.drift && q >= kFewestForRare,
-               two_parts = prior.two_parts && prior.slowing && prior.drift;
+               two_parts = prior.two_parts && prior.slowing && prior.drift,
+               walking = prior.walking && prior.drift;
     const std::size_t wandering = prior.drift ? std::size(kWandering) : 1;  // the first: rho of 0
     const std::size_t families = wandering + (bending ? std::size(kBending) : 0);
     const std::size_t most =
-        (slowings.size() * families + std::size(kTwoParts)) * noises.size() +
+        (slowings.size() * families + std::size(kTwoParts) +
+         std::size(kWalked) * std::size(kWalkSlowing)) *
+            noises.size() +
         std::size(kSwinging) * std::size(kFrequency) * noises_of_swings.size() + 2;
     models_.reserve(most);
     precisions_.resize(q, Eigen::Index(most) * q);
@@ -86,13 +97,26 @@ TrendModels::TrendModels(int increments, const TrendPrior& prior)
     log_priors_.resize(log_determinants_.size());
     const double share = 1.0 / double(families);
     for (const Slowing& slowing : slowings) {
-        for (std::size_t i = 0; i < wandering; ++i)
-            add_family({TrendShape::drift, false, kWandering[i], slowing.kappa},
-                       share * slowing.prior, noises);
-        if (!bending) continue;
-        for (const double rho : kBending)
-            add_family({TrendShape::drift, true, rho, slowing.kappa}, share * slowing.prior,
-                       noises);
+        TrendKind kind{TrendShape::drift};
+        kind.kappa = slowing.kappa;
+        kind.age = slowing.age > 0 ? slowing.age + q - 1 : 0;
+        for (std::size_t i = 0; i < wandering; ++i) {
+            kind.rho = kWandering[i];
+            add_family(kind, share * slowing.prior, noises);
+        }
+        kind.bending = true;
+        for (std::size_t i = 0; bending && i < std::size(kBending); ++i) {
+            kind.rho = kBending[i];
+            add_family(kind, share * slowing.prior, noises);
+        }
+    }
+    const std::size_t slow = prior.slowing ? std::size(kWalkSlowing) : 1;  // the first: not at all
+    for (std::size_t i = 0; walking && i < slow; ++i) {
+        TrendKind kind{TrendShape::drift, false, 1, kWalkSlowing[i]};
+        for (const double walked : kWalked) {
+            kind.walked = walked + q - 1;
+            add_family(kind, kWalking / double(slow * std::size(kWalked)), noises);
+        }
     }
     for (std::size_t i = 0; two_parts && i < std::size(kTwoParts); ++i) {
         TrendKind kind{TrendShape::drift, false, 1, kTwoParts[i].kappa};

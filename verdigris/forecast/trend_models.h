@@ -38,8 +38,9 @@ struct Trend {
 /// d_1 .. d_q of one component are Gaussian with covariance V (A K A + eta T):
 ///   K  how they hang together: rho^lag (a drift that wanders), or (1 + a lag) e^(-a lag)
 ///      (Matern 3/2: a drift that bends smoothly), or rho^lag cos(2 pi lag / period) (one that
-///      swings to and fro)
-///   A  how they slow down: e^(-kappa age)
+///      swings to and fro), or the time from the start of a walk to the earlier of two (a drift
+///      that itself walks at random)
+///   A  how they slow down: e^(-kappa ahead), or 1 / sqrt(age)
 ///   T  white noise of the frames, whose differences are 2 on the diagonal and -1 beside it
 /// and, in variants of each, one step (an increment of any size, or two where it falls within the
 /// time of a frame) or one outlying frame. V is fitted. Building costs O(models q^3), once; `trend`

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -66,10 +67,13 @@ TEST(TrendModels, ABendIsFollowed) {
 }
 
 TEST(TrendModels, WhatSpeedsUpDoesNotDoSoForEver) {
-    EXPECT_DOUBLE_EQ(drift_size(-0.1, 2), std::exp(0.2));
-    EXPECT_DOUBLE_EQ(drift_size(-0.1, 50), drift_size(-0.1, 3));
-    EXPECT_DOUBLE_EQ(drift_size(-0.1, -5), std::exp(-0.5));
-    EXPECT_DOUBLE_EQ(drift_size(0.1, 50), std::exp(-5));
+    const auto size = [](double kappa, double ahead) {
+        return drift_size({TrendShape::drift, false, 1, kappa}, ahead);
+    };
+    EXPECT_DOUBLE_EQ(size(-0.1, 2), std::exp(0.2));
+    EXPECT_DOUBLE_EQ(size(-0.1, 50), size(-0.1, 3));
+    EXPECT_DOUBLE_EQ(size(-0.1, -5), std::exp(-0.5));
+    EXPECT_DOUBLE_EQ(size(0.1, 50), std::exp(-5));
 }
 
 TEST(TrendModels, TwoPartsEachGoOnInTheirOwnWay) {
@@ -80,8 +84,9 @@ TEST(TrendModels, TwoPartsEachGoOnInTheirOwnWay) {
         const int q = 4, ahead = 10;
         MatrixXd parts(q, 2);
         Eigen::Vector2d truth(ahead, 0);
-        for (int i = 0; i < q; ++i) parts.row(i) << 1, drift_size(kappa, i - q + 1);
-        for (int h = 1; h <= ahead; ++h) truth[1] += drift_size(kappa, h);
+        const TrendKind second{TrendShape::drift, false, 1, kappa};
+        for (int i = 0; i < q; ++i) parts.row(i) << 1, drift_size(second, i - q + 1);
+        for (int h = 1; h <= ahead; ++h) truth[1] += drift_size(second, h);
         MatrixXd gram = MatrixXd::Zero(q, q);
         MatrixXd amounts(2, 3000);
         for (Eigen::Index pixel = 0; pixel < amounts.cols(); ++pixel) {
@@ -104,6 +109,66 @@ TEST(TrendModels, TwoPartsEachGoOnInTheirOwnWay) {
             EXPECT_GT(error(none), 2 * error({}));
         }
     }
+}
+
+/// Gram of many series of increments, and the mean square error over ten units of what the trend
+/// says of them, of what it is where nothing is forecast.
+double left_at_ten(const TrendPrior& prior, const std::function<VectorXd(std::mt19937&)>& series,
+                   int q) {
+    std::mt19937 random(17);
+    std::vector<VectorXd> all;
+    MatrixXd gram = MatrixXd::Zero(q, q);
+    for (int pixel = 0; pixel < 3000; ++pixel) {
+        all.push_back(series(random));
+        gram += all.back().head(q) * all.back().head(q).transpose() / 3000;
+    }
+    const Trend trend = TrendModels(q, prior).trend(gram, 100);
+    double error = 0, still = 0;
+    for (const VectorXd& d : all) {
+        const double truth = d.segment(q, 10).sum();
+        error += std::pow(trend.weights.row(kTenUnits).dot(d.head(q)) - truth, 2);
+        still += truth * truth;
+    }
+    return error / still;
+}
+
+TEST(TrendModels, ADriftThatWalksKeepsWhatItHasGot) {
+    // Places that begin to change one after another, and then go on.
+    const int q = 4;
+    const auto series = [](std::mt19937& random) {
+        std::normal_distribution<double> normal;
+        VectorXd d(q + 10);
+        double pace = 0;
+        for (double& v : d) v = pace += normal(random);
+        return d;
+    };
+    // The best there is carries the last increment on; what then comes, nothing foretells.
+    double best = 0, still = 0;
+    for (int h = 1; h <= 10; ++h) best += h * h;
+    still = best + 100 * q;
+    TrendPrior none;
+    none.walking = false;
+    EXPECT_LT(left_at_ten({}, series, q), 1.03 * best / still);
+    EXPECT_GT(left_at_ten(none, series, q), 1.1 * best / still);
+}
+
+TEST(TrendModels, ALayerGrowsWithTheSquareRootOfItsAge) {
+    for (const double age : {2.0, 10.0}) {
+        const auto series = [age](std::mt19937& random) {
+            VectorXd d(19);
+            const double size = std::normal_distribution<double>()(random);
+            std::normal_distribution<double> noise(0, 0.002);
+            for (int i = 0; i < 19; ++i)
+                d[i] = size * (std::sqrt(age + i + 1) - std::sqrt(age + i)) + noise(random);
+            return d;
+        };
+        EXPECT_LT(left_at_ten({}, series, 9), 0.01) << age;  // doubt alone is .0025
+    }
+    TrendKind layer{TrendShape::drift, false, 1};
+    layer.age = 4;
+    EXPECT_DOUBLE_EQ(drift_size(layer, 12), 0.5);
+    EXPECT_DOUBLE_EQ(drift_size(layer, -3), 2);
+    EXPECT_DOUBLE_EQ(drift_size(layer, -90), std::sqrt(8));  // not younger than new
 }
 
 TEST(TrendModels, NoiseIsTakenBackAndNotCarriedOn) {
@@ -187,16 +252,25 @@ TEST(TrendModels, WhatSwingsSwingsBack) {
 
 TEST(TrendModels, AnOutlyingFrameIsSetAside) {
     std::mt19937 random(3);
-    std::normal_distribution<double> noise(0, 0.01);
+    std::normal_distribution<double> noise(0, 0.01), flash;
     for (int at = 1; at < 9; ++at) {
-        VectorXd d(9);
-        for (double& v : d) v = noise(random);
-        d[at - 1] += 1, d[at] -= 1;
-        const Trend trend = of_series(d);
+        std::vector<VectorXd> pixels;
+        MatrixXd gram = MatrixXd::Zero(9, 9);
+        for (int pixel = 0; pixel < 100; ++pixel) {
+            VectorXd d(9);
+            for (double& v : d) v = noise(random);
+            const double size = flash(random);
+            d[at - 1] += size, d[at] -= size;
+            gram += d * d.transpose() / 100;
+            pixels.push_back(std::move(d));
+        }
+        const Trend trend = TrendModels(9).trend(gram, 100);
         EXPECT_GT(trend.event, 0.9) << at;
         EXPECT_TRUE(trend.outlier) << at;
         EXPECT_EQ(trend.event_frame, at);
-        EXPECT_NEAR((trend.weights * d)[kTenUnits], 0, 0.15) << at;
+        double square = 0;
+        for (const VectorXd& d : pixels) square += std::pow(trend.weights.row(kTenUnits).dot(d), 2);
+        EXPECT_LT(std::sqrt(square / 100), 0.02) << at;
     }
 }
 

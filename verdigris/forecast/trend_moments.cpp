@@ -17,7 +17,14 @@ constexpr double kFloor = 1e-4;  // variance that no model explains, of V
 // chosen: units for which what speeds up goes on to. Exponential growth is short of something soon.
 constexpr double kSpeedsUp = 3;
 
-double covariance_at(const TrendKind& kind, double lag) {
+// chosen: half a unit before the middle of its first increment a layer is as good as new, and a
+// drift has not begun to walk.
+constexpr double kNew = 0.5;
+
+/// Of the drift at two times, in units after the last frame.
+double covariance_at(const TrendKind& kind, double one, double other) {
+    if (kind.walked > 0) return std::max(kind.walked + std::min(one, other), kNew) / kind.walked;
+    const double lag = std::abs(one - other);
     const double fall = lag == 0 ? 1 : std::pow(kind.rho, lag);
     if (kind.period > 0) return std::cos(2 * std::numbers::pi * lag / kind.period) * fall;
     return kind.bending ? (1 - std::log(kind.rho) * lag) * fall : fall;
@@ -26,18 +33,22 @@ double covariance_at(const TrendKind& kind, double lag) {
 /// Variance of what a drift adds up to, for kTrendUnits ahead.
 VectorXd variance_ahead(const TrendKind& kind, double doubt) {
     const int last = int(kTrendUnits.back());
+    // Of increments that end there: all but a drift that walks depends on the lag alone.
     std::vector<double> covariance, size;
     for (int lag = 0; lag <= last; ++lag) {
-        covariance.push_back(covariance_at(kind, lag));
-        size.push_back(drift_size(kind.kappa, lag) * std::exp(-doubt * lag));
+        covariance.push_back(covariance_at(kind, 0, lag));
+        size.push_back(drift_size(kind, lag) * std::exp(-doubt * lag));
     }
+    const auto between = [&](int i, int j) {
+        return kind.walked > 0 ? covariance_at(kind, i, j) : covariance[std::size_t(j - i)];
+    };
     VectorXd out(Eigen::Index(kTrendUnits.size()));
     double sum = 0;
     for (int ahead = 1, u = 0; ahead <= last; ++ahead) {
         double with_earlier = 0;
-        for (int i = 1; i < ahead; ++i)
-            with_earlier += size[std::size_t(i)] * covariance[std::size_t(ahead - i)];
-        sum += size[std::size_t(ahead)] * (2 * with_earlier + size[std::size_t(ahead)]);
+        for (int i = 1; i < ahead; ++i) with_earlier += size[std::size_t(i)] * between(i, ahead);
+        const double now = size[std::size_t(ahead)];
+        sum += now * (2 * with_earlier + now * between(ahead, ahead));
         if (ahead == int(kTrendUnits[std::size_t(u)])) out[u++] = sum;
     }
     return out;
@@ -56,8 +67,10 @@ VectorXd units_ahead() {
 
 }  // namespace
 
-double drift_size(double kappa, double ahead) {
-    return std::exp(-kappa * (kappa < 0 ? std::min(ahead, kSpeedsUp) : ahead));
+double drift_size(const TrendKind& kind, double ahead) {
+    const double counted = kind.kappa < 0 ? std::min(ahead, kSpeedsUp) : ahead;
+    const double slower = kind.age > 0 ? std::sqrt(kind.age / std::max(kind.age + ahead, kNew)) : 1;
+    return slower * std::exp(-kind.kappa * counted);
 }
 
 TrendKind second_part(const TrendKind& kind) {
@@ -82,18 +95,18 @@ DriftMoments drift_moments(const TrendKind& kind, int q, double doubt) {
 DriftMoments part_moments(const TrendKind& kind, int q, double doubt) {
     const int units = int(kTrendUnits.size());
     DriftMoments out{MatrixXd(q, q), MatrixXd::Zero(units, q), {}};
-    const auto size = [&](double back) { return drift_size(kind.kappa, -back); };
+    const auto size = [&](double back) { return drift_size(kind, -back); };
     for (int i = 0; i < q; ++i) {
         for (int j = 0; j < q; ++j) {
             out.drift(i, j) =
-                size(q - 1 - i) * size(q - 1 - j) * covariance_at(kind, std::abs(i - j));
+                size(q - 1 - i) * size(q - 1 - j) * covariance_at(kind, i - q + 1, j - q + 1);
         }
         // Summed unit by unit up to each of kTrendUnits.
         double sum = 0;
         for (int u = 0, ahead = 1; u < units; ++u) {
             for (; ahead <= int(kTrendUnits[std::size_t(u)]); ++ahead)
                 sum += size(q - 1 - i) * size(-ahead) * std::exp(-doubt * ahead) *
-                       covariance_at(kind, q - 1 - i + ahead);
+                       covariance_at(kind, i - q + 1, ahead);
             out.future(u, i) = sum;
         }
     }

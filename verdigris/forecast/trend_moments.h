@@ -28,6 +28,12 @@ struct TrendKind {
     double kappa = 0;      ///< slows down by e^-kappa per unit
     double eta = 0;        ///< variance of the white noise of frames, of V
     double period = 0;     ///< swings to and fro, in units; 0: does not
+    /// Units for which a drift has walked at random by the last frame, from nothing; 0: it does
+    /// not, and rho tells how it hangs together.
+    double walked = 0;
+    /// Units for which a layer has grown through itself by the last frame: it slows down as the
+    /// square root of its age; 0: it does not.
+    double age = 0;
     // Of a change of two parts, each of which keeps to a law of its own:
     double second_share = 0;  ///< of V
     double second_kappa = 0;
@@ -40,9 +46,10 @@ struct TrendMoments {
     Eigen::VectorXd future;       ///< [kTrendUnits] its own; the noise of both ends is in it
 };
 
-/// How large a drift of this kappa is, `ahead` units after the last frame (less than 0: before).
-/// What speeds up, with a kappa below 0, does so for a few units only.
-double drift_size(double kappa, double ahead);
+/// How large a drift of this kappa and age is, `ahead` units after the last frame (less than 0:
+/// before), of what it is at the last. What speeds up, with a kappa below 0, does so for a few
+/// units only.
+double drift_size(const TrendKind& kind, double ahead);
 
 /// A drift without noise: the same for every eta.
 struct DriftMoments {

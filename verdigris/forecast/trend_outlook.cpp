@@ -22,8 +22,8 @@ double error_left(const TrendMoments& m, double eta) {
 }  // namespace
 
 const DriftMoments& TrendOutlook::part(const TrendKind& kind, int increments) {
-    const auto [at, is_new] =
-        drifts_.try_emplace({kind.bending, kind.rho, kind.kappa, kind.period, increments});
+    const auto [at, is_new] = drifts_.try_emplace(
+        {kind.bending, kind.rho, kind.kappa, kind.period, kind.walked, kind.age, increments});
     if (is_new) at->second = part_moments(kind, increments, doubt_);
     return at->second;
 }
@@ -35,16 +35,19 @@ double TrendOutlook::error_of(const TrendKind& kind, const Circumstances& c) {
         return error_left(level_moments(c.increments, eta), eta);
     }
     // What slows down is smaller later on, and noise is not. What speeds up is not counted on to be
-    // larger by then.
-    const auto later = [&](double kappa) { return std::exp(-2 * std::max(kappa, 0.0) * c.later); };
+    // larger by then, nor is what walks.
+    const auto later = [&](const TrendKind& part) {
+        const double size = std::min(1.0, drift_size(part, c.later));
+        return size * size;
+    };
     const DriftMoments& first = part(kind, c.increments);
     const auto left = [&](const DriftMoments& drift, double size) {
         const double eta = kind.eta * c.noise / size;
         return size * error_left(with_noise(drift, eta), eta);
     };
-    if (kind.second_share == 0) return left(first, later(kind.kappa));
-    const double of_second = kind.second_share * later(kind.second_kappa),
-                 size = (1 - kind.second_share) * later(kind.kappa) + of_second;
+    if (kind.second_share == 0) return left(first, later(kind));
+    const double of_second = kind.second_share * later(second_part(kind)),
+                 size = (1 - kind.second_share) * later(kind) + of_second;
     return left(together(first, part(second_part(kind), c.increments), of_second / size), size);
 }
 

@@ -35,7 +35,7 @@ class TrendOutlook {
     const DriftMoments& part(const TrendKind& kind, int increments);
 
     double doubt_;
-    std::map<std::tuple<bool, double, double, double, int>, DriftMoments> drifts_;
+    std::map<std::tuple<bool, double, double, double, double, double, int>, DriftMoments> drifts_;
 };
 
 /// Variance of the noise of one frame, as the likely models have it, in the same unit.
